@@ -1,0 +1,140 @@
+#include "app/capture.h"
+
+#include "commit.h"
+#include "core/error.h"
+#include "core/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace bounce {
+
+namespace fs = std::filesystem;
+
+const char* program_commit() {
+    return BOUNCE_COMMIT;
+}
+
+static std::string gl_text(GLenum name) {
+    const GLubyte* text = glGetString(name);
+    return text ? reinterpret_cast<const char*>(text) : "";
+}
+
+std::string picture_metadata(const Session& session, const std::string& resource) {
+    nlohmann::ordered_json json;
+    json["program"] = "bounce";
+    json["commit"] = program_commit();
+    json["shot"] = session.options().shot;
+    json["graph"] = session.options().graph;
+    if (!resource.empty()) json["resource"] = resource;
+    json["size"] = {session.size().x, session.size().y};
+    json["frame"] = session.frame();
+    json["time"] = session.time();
+    json["camera"] = nlohmann::ordered_json::parse(camera_json(session.camera()));
+    nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
+    for (const auto& [name, text] : session.changed_parameters(ParameterOrigin::graph)) parameters[name] = text;
+    json["parameters"] = parameters;
+    json["renderer"] = gl_text(GL_RENDERER);
+    json["driver"] = gl_text(GL_VERSION);
+    return json.dump();
+}
+
+Image read_layer(const GpuTexture& texture, int mip, int layer) {
+    glm::ivec3 size = mip_size(texture.desc(), mip);
+    int channels = format_by_enum(texture.desc().format).channels;
+    std::vector<float> all = texture.read(mip);
+    Image image(size.x, size.y, channels);
+    size_t stride = image.pixels.size();
+    size_t first = stride * size_t(std::clamp(layer, 0, size.z - 1));
+    std::copy_n(all.begin() + long(first), stride, image.pixels.begin());
+    return image;
+}
+
+/// Parts are radiance: three channels are enough.
+static Image without_alpha(const Image& image) {
+    if (image.channels != 4) return image;
+    Image out(image.width, image.height, 3);
+    for (size_t i = 0; i < size_t(image.width) * image.height; ++i) std::copy_n(&image.pixels[4 * i], 3, &out.pixels[3 * i]);
+    return out;
+}
+
+static Image8 to_display(const Image& image, bool encoded) {
+    Image8 out{image.width, image.height, std::vector<uint8_t>(size_t(image.width) * image.height * 4, 255)};
+    for (size_t i = 0; i < size_t(image.width) * image.height; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            float value = image.pixels[i * size_t(image.channels) + size_t(std::min(c, image.channels - 1))];
+            if (image.channels == 2 && c == 2) value = 0;
+            value = std::isnan(value) ? 0 : std::clamp(value, 0.0f, 1.0f);
+            if (!encoded) value = srgb_encode(value);
+            out.rgba[4 * i + size_t(c)] = uint8_t(std::lround(255 * value));
+        }
+    }
+    return out;
+}
+
+static const GpuTexture& find_texture(const Session& session, const std::string& resource) {
+    if (const GpuTexture* texture = session.graph().texture(resource)) return *texture;
+    std::vector<std::string> names;
+    for (const PlanResource& known : session.graph().plan().resources) {
+        if (!known.is_buffer()) names.push_back(known.name());
+    }
+    for (const PlanDecline& declined : session.graph().plan().declined) {
+        const PassNode* node = session.graph().model().find_node(declined.id);
+        for (const auto& program : node->programs) {
+            for (const ShaderSlot& slot : program->slots()) {
+                if (slot.writes && slot.name == resource) {
+                    throw Error(fmt::format("graph '{}' does not make '{}' here: pass '{}' declined ({})", session.options().graph,
+                                            resource, declined.id, declined.reason));
+                }
+            }
+        }
+    }
+    throw Error(fmt::format("graph '{}' makes no texture '{}'{}", session.options().graph, resource, did_you_mean(resource, names)));
+}
+
+void check_output_path(const fs::path& path) {
+    std::string extension = path.extension().string();
+    if (extension != ".exr" && extension != ".png") {
+        throw Error(fmt::format("'{}': pictures are written as .exr or .png", path.string()));
+    }
+    fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
+    if (!fs::is_directory(folder)) throw Error(fmt::format("'{}': there is no folder '{}'", path.string(), folder.string()));
+}
+
+void write_picture(const Session& session, const fs::path& path, const std::string& resource) {
+    check_output_path(path);
+    if (path.extension() == ".png") {
+        const GpuTexture& texture = find_texture(session, resource.empty() ? "out.display" : resource);
+        bool encoded = resource.empty() || resource == "out.display";
+        write_png(path, to_display(read_layer(texture), encoded));
+        return;
+    }
+    LayeredImage image;
+    image.metadata = picture_metadata(session, resource);
+    if (resource.empty()) {
+        for (const PlanResource& known : session.graph().plan().resources) {
+            bool part = known.name().starts_with("out.") && known.name() != "out.display" && !known.is_buffer();
+            if (part) image.layers[known.name()] = without_alpha(read_layer(*session.graph().texture(known.name())));
+        }
+        if (image.layers.empty()) throw Error("graph '" + session.options().graph + "' makes no out.* part to write");
+    } else {
+        const GpuTexture& texture = find_texture(session, resource);
+        const TextureDesc& desc = texture.desc();
+        if (desc.size.z == 1) image.layers[resource] = read_layer(texture);
+        else {
+            std::vector<float> all = texture.read(0);
+            int channels = format_by_enum(desc.format).channels;
+            size_t stride = size_t(desc.size.x) * desc.size.y * channels;
+            for (int z = 0; z < desc.size.z; ++z) {
+                Image layer(desc.size.x, desc.size.y, channels);
+                std::copy_n(all.begin() + long(stride * size_t(z)), stride, layer.pixels.begin());
+                image.layers[fmt::format("{}.{}", resource, z)] = std::move(layer);
+            }
+        }
+    }
+    write_exr(path, image);
+}
+
+} // namespace bounce

@@ -1,0 +1,45 @@
+// bounce graph: prints a graph's plan.
+#include "app/commands/command.h"
+#include "app/commands/session_options.h"
+#include "core/error.h"
+#include "graph/model.h"
+
+#include <fmt/format.h>
+
+namespace bounce {
+
+namespace {
+struct GraphArguments {
+    std::string name;
+    std::string shot = k_default_shot;
+    std::vector<std::string> sets;
+    std::string size;
+    bool graphviz = false;
+};
+
+int print_graph(const GraphArguments& arguments) {
+    SessionArguments shared;
+    shared.sets = arguments.sets;
+    shared.size = arguments.size;
+    SessionOptions options = shared.options();
+    GraphModel model(load_graph_file(find_graph(arguments.name)));
+    for (const auto& [name, text] : options.sets) model.set(name, text, ParameterOrigin::command_line);
+    Shot shot = load_shot(arguments.shot);
+    Plan plan = model.plan(shot_facts(shot), options.size.value_or(glm::ivec2(shot.width, shot.height)));
+    fmt::print("{}", arguments.graphviz ? plan_graphviz(model, plan) : plan_text(model, plan));
+    return 0;
+}
+} // namespace
+
+void add_graph_command(CLI::App& app, CommandFunction& chosen) {
+    auto* command = app.add_subcommand("graph", "print a graph's plan: passes in order, reads and writes, bytes, what declined");
+    auto arguments = std::make_shared<GraphArguments>();
+    command->add_option("graph", arguments->name, "a graph: name or .json")->required();
+    command->add_option("--shot", arguments->shot, "the shot that it is planned for")->capture_default_str();
+    command->add_option("--set", arguments->sets, "a parameter: pass.name=value")->allow_extra_args(false);
+    command->add_option("--size", arguments->size, "WxH instead of the shot's size");
+    command->add_flag("--graphviz", arguments->graphviz, "as a Graphviz digraph (dot -Tsvg)");
+    command->callback([arguments, &chosen] { chosen = [arguments] { return print_graph(*arguments); }; });
+}
+
+} // namespace bounce

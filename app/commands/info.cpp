@@ -1,0 +1,22 @@
+// bounce info: what a scene or shot holds, and so what it needs.
+#include "app/commands/command.h"
+#include "scene/describe.h"
+#include "scene/shot.h"
+
+#include <fmt/format.h>
+
+namespace bounce {
+
+void add_info_command(CLI::App& app, CommandFunction& chosen) {
+    auto* command = app.add_subcommand("info", "tell what a scene or shot holds, what was skipped, and what it needs");
+    auto file = std::make_shared<std::string>();
+    command->add_option("file", *file, "a scene (.gltf, .glb) or shot")->required();
+    command->callback([file, &chosen] {
+        chosen = [file] {
+            fmt::print("{}", describe_scene(load_shot(*file)));
+            return 0;
+        };
+    });
+}
+
+} // namespace bounce

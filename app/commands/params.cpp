@@ -1,0 +1,60 @@
+// bounce params: every parameter of a graph (or of all graphs), as text or Markdown.
+#include "app/commands/command.h"
+#include "core/error.h"
+#include "core/paths.h"
+#include "graph/model.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace bounce {
+
+namespace {
+struct ParamsArguments {
+    std::string graph;
+    bool markdown = false;
+};
+
+void print_set(const std::string& id, const ParameterSet& set, bool markdown) {
+    for (const Parameter& p : set.all()) {
+        std::string name = id + "." + p.info.name, value = to_text(p.info, p.value), range = range_text(p.info);
+        std::string unit = p.info.unit.empty() ? "" : " " + p.info.unit;
+        std::string help = p.info.help + (p.info.is_static ? " (compiled in)" : "");
+        if (markdown) fmt::print("| `{}` | {} | {}{} | {} |\n", name, value, range, unit, help);
+        else fmt::print("  {:<32} {:<12} {:<24} {}\n", name, value, range + unit, help);
+    }
+}
+
+void print_graph_parameters(const std::filesystem::path& path, bool markdown) {
+    GraphModel model(load_graph_file(path));
+    if (markdown) fmt::print("\n### {}\n\n{}\n\n| parameter | value | range, unit | what it is |\n| --- | --- | --- | --- |\n",
+                             model.file().name, model.file().about);
+    else fmt::print("{}: {}\n", model.file().name, model.file().about);
+    print_set("graph", model.graph_parameters(), markdown);
+    for (const auto& node : model.nodes()) print_set(node->id(), node->parameters, markdown);
+}
+
+int print_params(const ParamsArguments& arguments) {
+    if (!arguments.graph.empty()) {
+        print_graph_parameters(find_graph(arguments.graph), arguments.markdown);
+        return 0;
+    }
+    std::vector<std::filesystem::path> graphs;
+    for (const auto& entry : std::filesystem::directory_iterator(assets_folder() / "graphs")) {
+        if (entry.path().extension() == ".json") graphs.push_back(entry.path());
+    }
+    std::sort(graphs.begin(), graphs.end());
+    for (const auto& graph : graphs) print_graph_parameters(graph, arguments.markdown);
+    return 0;
+}
+} // namespace
+
+void add_params_command(CLI::App& app, CommandFunction& chosen) {
+    auto* command = app.add_subcommand("params", "list the parameters of a graph, or of all graphs");
+    auto arguments = std::make_shared<ParamsArguments>();
+    command->add_option("graph", arguments->graph, "a graph: name or .json");
+    command->add_flag("--markdown", arguments->markdown, "as Markdown tables");
+    command->callback([arguments, &chosen] { chosen = [arguments] { return print_params(*arguments); }; });
+}
+
+} // namespace bounce

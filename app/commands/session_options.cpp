@@ -1,0 +1,45 @@
+#include "app/commands/session_options.h"
+
+#include "core/error.h"
+
+#include <fmt/format.h>
+#include <regex>
+
+namespace bounce {
+
+void SessionArguments::add_to(CLI::App& command, bool shot_required) {
+    auto* shot_option = command.add_option("shot", shot, "a shot (name or .json), or a scene (.gltf, .glb)");
+    if (shot_required) shot_option->required();
+    command.add_option("--graph,-g", graph, "a graph: name or .json")->capture_default_str();
+    command.add_option("--set", sets, "a parameter: pass.name=value (repeatable; `bounce params` lists them)")->allow_extra_args(false);
+    command.add_option("--size", size, "WxH instead of the shot's size");
+    command.add_option("--device", device, "which EGL device (see --list-devices)");
+    command.add_flag("--check-nan", check_nan, "look for values that are not finite after every pass");
+}
+
+SessionOptions SessionArguments::options() const {
+    SessionOptions out;
+    out.shot = shot;
+    out.graph = graph;
+    out.check_nan = check_nan;
+    for (const std::string& set : sets) {
+        size_t equals = set.find('=');
+        if (equals == std::string::npos || equals == 0) {
+            throw Error(fmt::format("--set {}: it is written pass.parameter=value", set));
+        }
+        out.sets.emplace_back(set.substr(0, equals), set.substr(equals + 1));
+    }
+    if (!size.empty()) {
+        static const std::regex form("([0-9]{1,5})x([0-9]{1,5})");
+        std::smatch match;
+        if (!std::regex_match(size, match, form)) throw Error(fmt::format("--size {}: it is written WxH, as 1280x720", size));
+        glm::ivec2 pixels(std::stoi(match[1]), std::stoi(match[2]));
+        if (pixels.x < 1 || pixels.y < 1 || pixels.x > 16384 || pixels.y > 16384) {
+            throw Error(fmt::format("--size {}: each side is 1 … 16384", size));
+        }
+        out.size = pixels;
+    }
+    return out;
+}
+
+} // namespace bounce

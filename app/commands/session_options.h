@@ -1,0 +1,23 @@
+#pragma once
+// The options that every rendering command shares.
+
+#include "app/session.h"
+
+#include <CLI/CLI.hpp>
+
+namespace bounce {
+
+struct SessionArguments {
+    std::string shot = k_default_shot;
+    std::string graph = k_default_graph;
+    std::vector<std::string> sets;
+    std::string size;
+    int device = -1;
+    bool check_nan = false;
+
+    void add_to(CLI::App& command, bool shot_required);
+    /// Throws Error for a malformed --set or --size.
+    SessionOptions options() const;
+};
+
+} // namespace bounce

@@ -1,0 +1,63 @@
+// bounce shaders: expands every program of every graph to standalone files (for other compilers to judge).
+#include "app/commands/command.h"
+#include "core/error.h"
+#include "core/image.h"
+#include "core/paths.h"
+#include "graph/model.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace bounce {
+
+namespace {
+namespace fs = std::filesystem;
+
+/// Formats as the file's resources and the passes' declarations have them do not matter to a compiler's judgement of the
+/// rest, but the layout qualifier must be one that goes with the image's type.
+Defines formats_for(const Program& program) {
+    Defines formats;
+    for (const ShaderSlot& slot : program.slots()) {
+        if (slot.kind != SlotKind::image) continue;
+        bool integer = slot.type.starts_with("u"), is_signed = slot.type.starts_with("i") && !slot.type.starts_with("image");
+        formats["FORMAT_" + slot.identifier] = integer ? "r32ui" : is_signed ? "r32i" : "rgba16f";
+    }
+    return formats;
+}
+
+int expand_all(const std::string& folder) {
+    fs::create_directories(folder);
+    int count = 0;
+    std::vector<std::string> done;
+    for (const auto& entry : fs::directory_iterator(assets_folder() / "graphs")) {
+        if (entry.path().extension() != ".json") continue;
+        GraphModel model(load_graph_file(entry.path()));
+        for (const auto& node : model.nodes()) {
+            for (const auto& program : node->programs) {
+                program->scan(formats_for(*program), GraphModel::static_values(*node));
+                if (!program->errors().empty()) throw Error(program->errors().front().text());
+                for (size_t i = 0; i < program->sources().size(); ++i) {
+                    std::string name = program->stages()[i].string();
+                    std::replace(name.begin(), name.end(), '/', '.');
+                    name = model.file().name + "." + node->id() + "." + name;
+                    if (std::find(done.begin(), done.end(), name) != done.end()) continue;
+                    done.push_back(name);
+                    write_file_atomically(fs::path(folder) / name, program->sources()[i].text);
+                    ++count;
+                }
+            }
+        }
+    }
+    fmt::print("{} shaders in {}\n", count, folder);
+    return 0;
+}
+} // namespace
+
+void add_shaders_command(CLI::App& app, CommandFunction& chosen) {
+    auto* command = app.add_subcommand("shaders", "expand the shaders of every graph to standalone files");
+    auto folder = std::make_shared<std::string>();
+    command->add_option("--expand", *folder, "the folder to write to")->required();
+    command->callback([folder, &chosen] { chosen = [folder] { return expand_all(*folder); }; });
+}
+
+} // namespace bounce

@@ -1,0 +1,57 @@
+// bounce: subcommands, nothing else.
+#include "app/capture.h"
+#include "app/commands/command.h"
+#include "app/hosts/headless.h"
+#include "core/error.h"
+#include "core/log.h"
+
+#include <cstdio>
+#include <fmt/format.h>
+
+int main(int argc, char** argv) {
+    using namespace bounce;
+    CLI::App app("Bounce: a research sandbox for real-time global illumination");
+    app.set_version_flag("--version", std::string("bounce ") + program_commit());
+    bool verbose = false, list_devices = false;
+    app.add_flag("--verbose,-v", verbose, "show debug messages");
+    app.add_flag("--list-devices", list_devices, "list the EGL devices for --device");
+    app.require_subcommand(0, 1);
+    app.fallthrough();
+    CommandFunction chosen;
+    add_view_command(app, chosen);
+    add_render_command(app, chosen);
+    add_graph_command(app, chosen);
+    add_params_command(app, chosen);
+    add_info_command(app, chosen);
+    add_new_command(app, chosen);
+    add_shaders_command(app, chosen);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp& help) {
+        return app.exit(help);
+    } catch (const CLI::CallForAllHelp& help) {
+        return app.exit(help);
+    } catch (const CLI::CallForVersion& version) {
+        return app.exit(version);
+    } catch (const CLI::ParseError& error) {
+        fmt::print(stderr, "error: {} (bounce --help shows what there is)\n", error.what());
+        return 2;
+    }
+    start_log(verbose);
+    try {
+        if (list_devices) {
+            for (const HeadlessDevice& device : list_headless_devices()) fmt::print("{}: {}\n", device.index, device.name);
+            return 0;
+        }
+        return chosen ? chosen() : run_default();
+    } catch (const Error& error) {
+        fmt::print(stderr, "error: {}\n", error.what());
+        return 2;
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "error: out of memory\n");
+        return 2;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "error: {}\n", error.what());
+        return 2;
+    }
+}

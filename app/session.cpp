@@ -1,0 +1,177 @@
+#include "app/session.h"
+
+#include "core/error.h"
+#include "core/log.h"
+
+#include <fmt/format.h>
+
+namespace bounce {
+
+Session::Session(SessionOptions options) : options_(std::move(options)), timer_mode_(probe_timer_mode()) {
+    shot_ = std::make_unique<Shot>(load_shot(options_.shot));
+    size_ = options_.size.value_or(glm::ivec2(shot_->width, shot_->height));
+    graph_ = std::make_unique<Graph>(find_graph(options_.graph), timer_mode_);
+    graph_->check_nan = graph_->check_nan || options_.check_nan;
+    ErrorList errors;
+    for (const auto& [name, text] : options_.sets) {
+        try {
+            graph_->model().set(name, text, ParameterOrigin::command_line);
+        } catch (const Error& error) {
+            errors.add(error.what());
+        }
+    }
+    errors.throw_if_any("--set");
+    load_scene_to_gpu();
+    graph_->prepare(facts_, size_); // so that a bad graph is told at once
+}
+
+Session::~Session() = default;
+
+void Session::load_scene_to_gpu() {
+    facts_ = shot_facts(*shot_);
+    gpu_scene_ = std::make_unique<GpuScene>(shot_->scene, shot_->environment);
+    scene_dirty_ = true;
+    has_last_view_ = false;
+}
+
+void Session::open_shot(const std::string& name) {
+    auto next = std::make_unique<Shot>(load_shot(name));
+    std::swap(shot_, next);
+    try {
+        load_scene_to_gpu();
+    } catch (const Error&) {
+        std::swap(shot_, next);
+        load_scene_to_gpu();
+        throw;
+    }
+    options_.shot = name;
+    camera_.reset();
+    frame_ = 0;
+    rendered_frame_ = -1;
+    graph_->touch();
+    graph_->reset_history();
+}
+
+void Session::open_graph(const std::string& name) {
+    auto next = std::make_unique<Graph>(find_graph(name), timer_mode_);
+    next->model().adopt(graph_->model());
+    next->check_nan = graph_->check_nan;
+    next->prepare(facts_, size_);
+    graph_ = std::move(next);
+    options_.graph = name;
+}
+
+void Session::set_frame(int frame) {
+    if (frame != frame_ + 1) graph_->reset_history();
+    frame_ = frame;
+}
+
+Camera Session::camera() const {
+    return camera_ ? *camera_ : evaluate_shot(*shot_, frame_).camera;
+}
+
+void Session::set_camera(const Camera& camera, bool cut) {
+    camera_ = camera;
+    if (cut) graph_->reset_history();
+    if (cut) has_last_view_ = false;
+}
+
+void Session::follow_shot_camera() {
+    camera_.reset();
+    has_last_view_ = false;
+    graph_->reset_history();
+}
+
+void Session::resize(glm::ivec2 size) {
+    if (size == size_ || size.x < 1 || size.y < 1) return;
+    size_ = size;
+    has_last_view_ = false;
+}
+
+void Session::render() {
+    state_ = evaluate_shot(*shot_, frame_);
+    if (scene_dirty_) {
+        facts_ = shot_facts(*shot_);
+        gpu_scene_->update_materials(shot_->scene.materials);
+        scene_dirty_ = false;
+    }
+    gpu_scene_->update(state_.scene);
+    graph_->prepare(facts_, size_);
+
+    FrameConstants& c = constants_;
+    c = FrameConstants{};
+    bounce::set_camera(c, camera_ ? *camera_ : state_.camera, size_, facts_.bounds_over_animation.diagonal());
+    c.previous_view_projection = has_last_view_ ? last_view_projection_ : c.view_projection;
+    c.time = state_.time;
+    c.delta_time = 1.0f / shot_->fps;
+    c.scene_min = facts_.bounds_over_animation.min;
+    c.scene_max = facts_.bounds_over_animation.max;
+    c.scene_diagonal = facts_.bounds_over_animation.diagonal();
+    c.environment_radiance = shot_->environment.radiance;
+    c.environment_map = shot_->environment.map.empty() ? 0 : 1;
+    c.frame_index = frame_;
+    c.light_count = int(gpu_scene_->light_list().size());
+    c.shadow_view_count = gpu_scene_->shadow_view_count();
+    c.diffuse_only = shot_->diffuse_only ? 1 : 0;
+    c.normal_maps = shot_->normal_maps ? 1 : 0;
+
+    FrameInputs inputs{gpu_scene_.get(), &facts_, c};
+    graph_->execute(inputs);
+    last_view_projection_ = c.view_projection;
+    has_last_view_ = true;
+    rendered_frame_ = frame_;
+}
+
+void Session::set_parameter(const std::string& name, const std::string& text, ParameterOrigin origin) {
+    graph_->model().set(name, text, origin);
+    graph_->touch();
+}
+
+std::vector<std::pair<std::string, std::string>> Session::changed_parameters(ParameterOrigin at_least) const {
+    std::vector<std::pair<std::string, std::string>> changed;
+    auto add = [&](const std::string& id, const ParameterSet& set) {
+        for (const Parameter& p : set.all()) {
+            if (p.origin >= at_least && p.value != p.info.default_value) {
+                changed.emplace_back(id + "." + p.info.name, to_text(p.info, p.value));
+            }
+        }
+    };
+    add("graph", graph_->model().graph_parameters());
+    for (const auto& node : graph_->model().nodes()) add(node->id(), node->parameters);
+    return changed;
+}
+
+std::string Session::command_line(const std::string& output) const {
+    std::string text = fmt::format("bounce render {} --graph {} --size {}x{}", options_.shot, options_.graph, size_.x, size_.y);
+    if (frame_ > 0) text += fmt::format(" --frames {}", frame_ + 1);
+    // What the graph file sets is part of the graph; values put back to their default by a person are not.
+    auto add = [&](const std::string& id, const ParameterSet& set) {
+        for (const Parameter& p : set.all()) {
+            if (p.origin >= ParameterOrigin::command_line) {
+                text += fmt::format(" --set {}.{}={}", id, p.info.name, to_text(p.info, p.value));
+            }
+        }
+    };
+    add("graph", graph_->model().graph_parameters());
+    for (const auto& node : graph_->model().nodes()) add(node->id(), node->parameters);
+    return text + " -o " + output;
+}
+
+void Session::release_gpu() {
+    kept_parameters_.clear();
+    for (const auto& changed : changed_parameters(ParameterOrigin::command_line)) kept_parameters_.push_back(changed);
+    suspects_ = graph_->newest_program_files();
+    graph_.reset();
+    gpu_scene_.reset();
+}
+
+void Session::restore_gpu() {
+    graph_ = std::make_unique<Graph>(find_graph(options_.graph), timer_mode_);
+    for (const auto& [name, text] : kept_parameters_) graph_->model().set(name, text, ParameterOrigin::panel);
+    load_scene_to_gpu();
+    graph_->prepare(facts_, size_);
+    graph_->disable_programs(suspects_);
+    spdlog::warn("the GPU was reset; the program that was compiled last is disabled until it is edited");
+}
+
+} // namespace bounce

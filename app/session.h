@@ -1,0 +1,106 @@
+#pragma once
+// What both hosts drive: a shot, a graph, a frame index. Needs a current OpenGL context.
+
+#include "graph/graph.h"
+#include "scene/shot.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bounce {
+
+inline constexpr const char* k_default_shot = "atrium";
+inline constexpr const char* k_default_graph = "direct";
+
+struct SessionOptions {
+    std::string shot = k_default_shot;
+    std::string graph = k_default_graph;
+    std::vector<std::pair<std::string, std::string>> sets; ///< "id.parameter" → text, from --set
+    std::optional<glm::ivec2> size;                        ///< instead of the shot's
+    bool check_nan = false;
+};
+
+class Session {
+  public:
+    /// Loads the shot and the graph, applies the options. Throws Error.
+    explicit Session(SessionOptions options);
+    ~Session();
+
+    // --- what is shown ---
+    void open_shot(const std::string& name);   ///< throws Error; the old shot then stays
+    void open_graph(const std::string& name);  ///< likewise; values that a person set are kept where they fit
+    Shot& shot() { return *shot_; }
+    const Shot& shot() const { return *shot_; }
+    const SceneFacts& facts() const { return facts_; }
+    Graph& graph() { return *graph_; }
+    const Graph& graph() const { return *graph_; }
+    const GpuScene& gpu_scene() const { return *gpu_scene_; }
+    const SessionOptions& options() const { return options_; }
+
+    /// After an edit of shot().scene.lights, nodes, materials or the environment.
+    void scene_edited() { scene_dirty_ = true; }
+
+    // --- time ---
+    int frame() const { return frame_; }
+    void set_frame(int frame);                 ///< frames back, and jumps, void history
+    void advance() { ++frame_; }
+    float time() const { return shot_->time_at(frame_); }
+
+    // --- camera ---
+    /// The camera of this frame: the shot's, unless one was set.
+    Camera camera() const;
+    bool camera_is_set() const { return camera_.has_value(); }
+    void set_camera(const Camera& camera, bool cut = false);
+    void follow_shot_camera();
+
+    // --- size ---
+    glm::ivec2 size() const { return size_; }
+    void resize(glm::ivec2 size);
+
+    /// Plans and renders the present frame. Throws Error only when there never was a good plan.
+    void render();
+    /// Polls the watched files of graph and shaders. Returns true when something was reloaded.
+    bool poll_files() { return graph_->poll_files(); }
+    const SceneState& scene_state() const { return state_.scene; }
+    const FrameConstants& constants() const { return constants_; }
+
+    /// "id.parameter" from text; throws Error. The graph plans again at the next frame.
+    void set_parameter(const std::string& name, const std::string& text, ParameterOrigin origin);
+    /// Every parameter that is not at its default, as name and --set text.
+    std::vector<std::pair<std::string, std::string>> changed_parameters(ParameterOrigin at_least) const;
+
+    /// The command that makes this picture without a window (a shot file must hold the camera when one was set).
+    std::string command_line(const std::string& output) const;
+
+    /// After a GPU reset, with a new context current: everything on the GPU is made again, and the programs that were
+    /// compiled last stay disabled.
+    void release_gpu();
+    void restore_gpu();
+
+  private:
+    void load_scene_to_gpu();
+
+    SessionOptions options_;
+    std::unique_ptr<Shot> shot_;
+    SceneFacts facts_;
+    std::unique_ptr<GpuScene> gpu_scene_;
+    std::unique_ptr<Graph> graph_;
+    TimerMode timer_mode_;
+    ShotState state_;
+    FrameConstants constants_;
+    glm::mat4 last_view_projection_{1};
+    bool has_last_view_ = false;
+    std::optional<Camera> camera_;
+    glm::ivec2 size_{1};
+    int frame_ = 0;
+    int rendered_frame_ = -1;
+    bool scene_dirty_ = true;
+
+    std::vector<std::pair<std::string, std::string>> kept_parameters_; ///< while the GPU is lost
+    std::vector<std::filesystem::path> suspects_;
+};
+
+} // namespace bounce

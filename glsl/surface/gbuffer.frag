@@ -1,0 +1,56 @@
+// Writes what is seen: base colour, normals turned toward the viewer, roughness and metallic, emission.
+#define SCENE_MATERIALS
+#include "lib/frame.glsl"
+#include "lib/material_raster.glsl"
+#include "lib/brdf.glsl"
+
+in Surface {
+    vec3 position;
+    vec3 normal;
+    vec4 tangent;
+    vec4 uv;
+    vec4 colour;
+} surface;
+flat in uint surface_material;
+
+layout(location = 0) out vec4 albedo;           // base colour; a = 1 where there is a surface
+layout(location = 1) out vec4 normal;           // shading normal, world
+layout(location = 2) out vec4 geometric_normal; // of the triangle, world
+layout(location = 3) out vec2 roughness_metallic;
+layout(location = 4) out vec4 emission; // radiance, W/(sr·m²)
+
+void main() {
+    Material material = materials[surface_material];
+    vec4 base = sample_base_colour(material, surface.uv.xy, surface.uv.zw, surface.colour);
+    vec2 normal_uv = transform_uv(material.normal_texture, surface.uv.xy, surface.uv.zw);
+    vec3 mapped = texture(material_normal, normal_uv).xyz * 2.0 - 1.0;
+    vec2 rm = texture(material_metallic_roughness, transform_uv(material.metallic_roughness_texture, surface.uv.xy, surface.uv.zw)).gb;
+    vec3 glow = texture(material_emission, transform_uv(material.emission_texture, surface.uv.xy, surface.uv.zw)).rgb;
+    vec3 face = cross(dFdx(surface.position), dFdy(surface.position));
+    if (alpha_rejects(material, base.a)) discard;
+
+    vec3 to_viewer = normalize(camera_position - surface.position);
+    float face_length = length(face);
+    vec3 authored = normalize(surface.normal);
+    face = face_length > 0.0 ? face / face_length : authored;
+    if (dot(face, to_viewer) < 0.0) face = -face;
+
+    vec3 shading = authored;
+    if (material.normal_texture.array >= 0 && normal_maps != 0) {
+        vec3 t = surface.tangent.xyz - authored * dot(authored, surface.tangent.xyz);
+        if (dot(t, t) > 1.0e-12) {
+            t = normalize(t);
+            vec3 b = cross(authored, t) * surface.tangent.w;
+            mapped.xy *= material.normal_scale;
+            vec3 turned = t * mapped.x + b * mapped.y + authored * mapped.z;
+            if (dot(turned, turned) > 1.0e-12) shading = normalize(turned);
+        }
+    }
+    shading = turn_toward_viewer(shading, face, to_viewer);
+
+    albedo = vec4(base.rgb, 1.0);
+    normal = vec4(shading, 0.0);
+    geometric_normal = vec4(face, 0.0);
+    roughness_metallic = clamp(vec2(material.roughness * rm.x, material.metallic * rm.y), 0.0, 1.0);
+    emission = vec4(min(material.emission * glow, vec3(65504.0)), 0.0);
+}

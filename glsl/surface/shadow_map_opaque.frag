@@ -1,0 +1,2 @@
+// Depth of what the light sees, for materials without alpha test.
+void main() {}

@@ -1,0 +1,179 @@
+// OpenEXR files of named layers. Encoded and decoded in memory, so that a file is written whole or not at all.
+
+#include "core/error.h"
+#include "core/image.h"
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
+#include <ImfThreading.h>
+#include <algorithm>
+#include <cstring>
+#include <mutex>
+#include <thread>
+
+namespace bounce {
+
+namespace {
+
+class MemoryOutput : public Imf::OStream {
+  public:
+    explicit MemoryOutput(std::string& bytes) : OStream("memory"), bytes_(bytes) {}
+    void write(const char data[], int count) override {
+        if (position_ + count > bytes_.size()) bytes_.resize(position_ + count);
+        std::memcpy(bytes_.data() + position_, data, size_t(count));
+        position_ += size_t(count);
+    }
+    uint64_t tellp() override { return position_; }
+    void seekp(uint64_t position) override { position_ = position; }
+
+  private:
+    std::string& bytes_;
+    uint64_t position_ = 0;
+};
+
+class MemoryInput : public Imf::IStream {
+  public:
+    explicit MemoryInput(const std::string& bytes) : IStream("memory"), bytes_(bytes) {}
+    bool read(char data[], int count) override {
+        if (count < 0 || position_ > bytes_.size() || uint64_t(count) > bytes_.size() - position_) {
+            throw Error("the file ends too early");
+        }
+        std::memcpy(data, bytes_.data() + position_, size_t(count));
+        position_ += uint64_t(count);
+        return position_ < bytes_.size();
+    }
+    uint64_t tellg() override { return position_; }
+    void seekg(uint64_t position) override { position_ = position; }
+
+  private:
+    const std::string& bytes_;
+    uint64_t position_ = 0;
+};
+
+/// Floats that a file may ask for (2 GiB): a damaged header must not take all memory.
+constexpr size_t k_most_floats = size_t(1) << 29;
+
+} // namespace
+
+static void use_all_threads() {
+    static std::once_flag once;
+    std::call_once(once, [] { Imf::setGlobalThreadCount(int(std::max(1u, std::thread::hardware_concurrency()))); });
+}
+
+static std::string channel_name(const std::string& layer, int channels, int channel) {
+    static const char* const k_suffixes[4][4] = {{"Y"}, {"X", "Y"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
+    std::string suffix = k_suffixes[channels - 1][channel];
+    return layer.empty() ? suffix : layer + "." + suffix;
+}
+
+static int suffix_order(const std::string& suffix) {
+    size_t found = std::string("RGBAXYZ").find(suffix);
+    return suffix.size() == 1 && found != std::string::npos ? int(found) : 100;
+}
+
+void write_exr(const std::filesystem::path& path, const LayeredImage& image) {
+    std::string where = "cannot write '" + path.string() + "': ";
+    if (image.layers.empty()) throw Error(where + "the image has no layers");
+    const Image& first = image.layers.begin()->second;
+    for (const auto& [name, layer] : image.layers) {
+        if (layer.empty() || layer.pixels.size() != size_t(layer.width) * layer.height * layer.channels) {
+            throw Error(where + "the layer '" + name + "' is empty or its pixels do not match its size");
+        }
+        if (layer.width != first.width || layer.height != first.height) {
+            throw Error(where + "the layer '" + name + "' differs in size from the others");
+        }
+        if (layer.channels < 1 || layer.channels > 4) {
+            throw Error(where + "the layer '" + name + "' needs 1 to 4 channels");
+        }
+    }
+    std::string bytes;
+    try {
+        use_all_threads();
+        Imf::Header header(first.width, first.height);
+        header.compression() = Imf::ZIP_COMPRESSION;
+        if (!image.metadata.empty()) header.insert("bounce", Imf::StringAttribute(image.metadata));
+        Imf::FrameBuffer frame;
+        for (const auto& [name, layer] : image.layers) {
+            for (int c = 0; c < layer.channels; ++c) {
+                std::string channel = channel_name(name, layer.channels, c);
+                if (header.channels().findChannel(channel)) {
+                    throw Error("two layers would both be stored as the channel '" + channel + "'");
+                }
+                header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
+                auto* base = reinterpret_cast<char*>(const_cast<float*>(layer.pixels.data()) + c);
+                frame.insert(channel, Imf::Slice(Imf::FLOAT, base, sizeof(float) * layer.channels,
+                                                 sizeof(float) * layer.channels * layer.width));
+            }
+        }
+        MemoryOutput stream(bytes);
+        Imf::OutputFile file(stream, header);
+        file.setFrameBuffer(frame);
+        file.writePixels(first.height);
+    } catch (const std::exception& error) {
+        throw Error(where + error.what());
+    }
+    write_file_atomically(path, bytes);
+}
+
+LayeredImage read_exr(const std::filesystem::path& path) {
+    std::string bytes = read_file(path);
+    LayeredImage image;
+    try {
+        use_all_threads();
+        MemoryInput stream(bytes);
+        Imf::InputFile file(stream);
+        const Imf::Header& header = file.header();
+        const Imath::Box2i window = header.dataWindow();
+        int64_t width = int64_t(window.max.x) - window.min.x + 1;
+        int64_t height = int64_t(window.max.y) - window.min.y + 1;
+        if (const auto* text = header.findTypedAttribute<Imf::StringAttribute>("bounce"))
+            image.metadata = text->value();
+
+        std::map<std::string, std::vector<std::string>> layers; // the channel suffixes of each
+        for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
+            std::string name = it.name();
+            if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
+                throw Error("the channel '" + name + "' is subsampled, which is not supported");
+            }
+            size_t dot = name.rfind('.');
+            std::string layer = dot == std::string::npos ? "" : name.substr(0, dot);
+            layers[layer].push_back(dot == std::string::npos ? name : name.substr(dot + 1));
+        }
+        size_t channel_count = 0;
+        for (const auto& [name, suffixes] : layers)
+            channel_count += suffixes.size();
+        if (channel_count == 0) throw Error("it has no channels");
+        if (width <= 0 || height <= 0 || size_t(width) > k_most_floats / size_t(height) / channel_count) {
+            throw Error("its size, " + std::to_string(width) + "x" + std::to_string(height) + " with " +
+                        std::to_string(channel_count) + " channels, is more than 2 GiB");
+        }
+        Imf::FrameBuffer frame;
+        for (auto& [name, suffixes] : layers) {
+            std::stable_sort(suffixes.begin(), suffixes.end(),
+                             [](const auto& a, const auto& b) { return suffix_order(a) < suffix_order(b); });
+            int channels = int(suffixes.size());
+            Image& target = image.layers[name] = Image(int(width), int(height), channels);
+            for (int c = 0; c < channels; ++c) {
+                std::string channel = name.empty() ? suffixes[c] : name + "." + suffixes[c];
+                ptrdiff_t x_stride = ptrdiff_t(sizeof(float)) * channels;
+                ptrdiff_t y_stride = x_stride * width;
+                // OpenEXR addresses pixels by their data window coordinates.
+                char* base = reinterpret_cast<char*>(target.pixels.data() + c) - window.min.x * x_stride -
+                             window.min.y * y_stride;
+                frame.insert(channel, Imf::Slice(Imf::FLOAT, base, size_t(x_stride), size_t(y_stride)));
+            }
+        }
+        file.setFrameBuffer(frame);
+        file.readPixels(window.min.y, window.max.y);
+    } catch (const std::exception& error) {
+        throw Error("cannot read '" + path.string() + "' as an OpenEXR image: " + error.what());
+    }
+    return image;
+}
+
+} // namespace bounce

@@ -1,0 +1,91 @@
+#pragma once
+// A program that outlives its mistakes: it is compiled aside, and swapped in only when all of it is right.
+
+#include "gpu/shader_source.h"
+
+#include <functional>
+#include <glad/gl.h>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+namespace bounce {
+
+struct UniformInfo {
+    std::string name; ///< without "[0]"
+    GLenum type = 0;
+    GLint location = -1;
+    GLint count = 1;
+};
+struct OpaqueInfo {
+    std::string name;
+    GLenum type = 0; ///< GL_SAMPLER_2D, GL_UNSIGNED_INT_IMAGE_3D …
+    GLint unit = 0;  ///< assigned when linked: 0, 1, … for samplers and for images apart
+    GLint count = 1;
+};
+struct BlockInfo {
+    std::string name;
+    GLuint binding = 0; ///< assigned when linked
+};
+
+/// What the linked program really uses.
+struct ProgramInterface {
+    std::vector<UniformInfo> uniforms;
+    std::vector<OpaqueInfo> samplers, images;
+    std::vector<BlockInfo> storage_blocks, uniform_blocks;
+    glm::ivec3 local_size{1};
+};
+
+class Program {
+  public:
+    /// `stages`: files relative to the glsl folder. Nothing is compiled yet.
+    Program(std::string name, std::vector<std::filesystem::path> stages, std::filesystem::path folder);
+    ~Program();
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+
+    /// Reads the sources again (no OpenGL). Afterwards parameters(), slots(), files() are those of the files as they are.
+    void scan(const Defines& defines, const Defines& static_values);
+    /// Compiles and links what was scanned; `check` may refuse the interface (it returns what is wrong). On success the
+    /// new program replaces the old; on failure the last good one stays and errors() says why. Returns success.
+    bool build(const std::function<std::vector<std::string>(const ProgramInterface&)>& check);
+
+    const std::string& name() const { return name_; }
+    bool usable() const { return id_ != 0; }       ///< a good program is there (perhaps an older one)
+    bool disabled() const { return disabled_; }    ///< by disable(), until the next successful build
+    bool up_to_date() const { return up_to_date_; } ///< and it is the newest text
+    GLuint id() const { return id_; }
+    const ProgramInterface& interface() const { return interface_; }
+    const std::vector<ShaderError>& errors() const { return errors_; }
+    const std::vector<std::filesystem::path>& files() const { return files_; }
+    const std::vector<ParameterInfo>& parameters() const { return parameters_; }
+    const std::vector<ShaderSlot>& slots() const { return slots_; }
+    const std::vector<ShaderSource>& sources() const { return sources_; }
+    const std::vector<std::filesystem::path>& stages() const { return stages_; }
+    /// Lets go of the program after it hung the GPU; it comes back when its text changes.
+    void disable();
+
+  private:
+    void destroy();
+
+    std::string name_;
+    std::vector<std::filesystem::path> stages_;
+    std::filesystem::path folder_;
+    std::vector<ShaderSource> sources_;
+    std::vector<std::filesystem::path> files_;
+    std::vector<ParameterInfo> parameters_;
+    std::vector<ShaderSlot> slots_;
+    std::vector<ShaderError> errors_;
+    ProgramInterface interface_;
+    GLuint id_ = 0;
+    bool up_to_date_ = false;
+    bool disabled_ = false;
+};
+
+/// Sets one uniform from a parameter's value, converting between int, uint, bool and float as the uniform's type asks.
+/// Returns false when the types do not go together.
+bool set_uniform(GLuint program, const UniformInfo& uniform, const ParameterValue& value);
+/// Whether set_uniform would take such a value.
+bool uniform_takes(GLenum uniform_type, const ParameterValue& value);
+
+} // namespace bounce

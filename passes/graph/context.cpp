@@ -1,0 +1,257 @@
+#include "graph/context.h"
+
+#include "core/error.h"
+#include "graph/expression.h"
+#include "graph/graph.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace bounce {
+
+const SceneFacts& PassContext::facts() const {
+    return *graph_.inputs_->facts;
+}
+const GpuScene& PassContext::scene() const {
+    return *graph_.inputs_->scene;
+}
+const FrameConstants& PassContext::frame() const {
+    return graph_.inputs_->constants;
+}
+bool PassContext::history_valid() const {
+    return graph_.history_valid_;
+}
+
+const PlanSlot& PassContext::slot(const std::string& name) const {
+    if (const PlanSlot* found = pass_.find(name)) return *found;
+    throw Error("pass '" + pass_.id + "' has no slot '" + name + "'");
+}
+
+bool PassContext::has(const std::string& name) const {
+    const PlanSlot* found = pass_.find(name);
+    return found && found->resource >= 0;
+}
+
+const GpuTexture& PassContext::texture(const std::string& name) const {
+    const PlanSlot& s = slot(name);
+    if (s.resource < 0) throw Error("slot '" + name + "' of pass '" + pass_.id + "' has no texture");
+    return graph_.allocations_.texture(s.resource, s.bind.previous);
+}
+
+const Buffer& PassContext::buffer(const std::string& name) const {
+    const PlanSlot& s = slot(name);
+    if (s.resource < 0) throw Error("slot '" + name + "' of pass '" + pass_.id + "' has no buffer");
+    return graph_.allocations_.buffer(s.resource, s.bind.previous);
+}
+
+std::optional<double> PassContext::number(const std::string& name) const {
+    const GraphModel& model = *graph_.model_;
+    size_t last = name.rfind('.');
+    if (last != std::string::npos) {
+        const PlanResource* resource = graph_.plan_.find_resource(name.substr(0, last));
+        std::string side = name.substr(last + 1);
+        if (resource && side == "width") return resource->texture.size.x;
+        if (resource && side == "height") return resource->texture.size.y;
+        if (resource && side == "depth") return resource->texture.size.z;
+        if (resource && side == "mips") return resource->texture.mips;
+        if (resource && side == "count") return double(resource->count);
+    }
+    return model.number(name);
+}
+
+/// The mip or layer that a bind entry names at this step; −1 when it names none.
+static int index_at(const std::string& expression, int iteration) {
+    if (expression.empty()) return -1;
+    if (expression == "iteration") return iteration;
+    auto lookup = [&](const std::string& name) -> std::optional<double> {
+        if (name == "iteration") return iteration;
+        return std::nullopt;
+    };
+    return evaluate_integer(expression, lookup, 0);
+}
+
+glm::ivec3 PassContext::size(const std::string& name) const {
+    const PlanSlot& s = slot(name);
+    int mip = index_at(s.bind.mip, iteration);
+    glm::ivec3 size = mip_size(texture(name).desc(), std::max(mip, 0));
+    if (!s.bind.layer.empty() && texture(name).desc().kind == TextureKind::texture_2d_array) size.z = 1;
+    return size;
+}
+
+void PassContext::set(const std::string& name, const ParameterValue& value) {
+    for (auto& [known, old] : constants_) {
+        if (known == name) {
+            old = value;
+            return;
+        }
+    }
+    constants_.emplace_back(name, value);
+}
+
+static bool sampler_is_2d(GLenum type) {
+    return type == GL_SAMPLER_2D || type == GL_INT_SAMPLER_2D || type == GL_UNSIGNED_INT_SAMPLER_2D || type == GL_SAMPLER_2D_SHADOW;
+}
+
+static bool image_is_2d(GLenum type) {
+    return type == GL_IMAGE_2D || type == GL_INT_IMAGE_2D || type == GL_UNSIGNED_INT_IMAGE_2D;
+}
+
+Program& PassContext::use(const std::string& name) {
+    PassNode& node = *graph_.model_->nodes()[size_t(pass_.node)];
+    Program* program = node.program(name);
+    if (!program) throw Error("pass '" + pass_.id + "' has no program '" + name + "'");
+    glUseProgram(program->id());
+    const ProgramInterface& interface = program->interface();
+
+    for (const UniformInfo& uniform : interface.uniforms) {
+        auto constant = std::find_if(constants_.begin(), constants_.end(), [&](auto& c) { return c.first == uniform.name; });
+        if (constant != constants_.end()) set_uniform(program->id(), uniform, constant->second);
+        else if (uniform.name == "iteration") set_uniform(program->id(), uniform, iteration);
+        else if (uniform.name == "repeat_from") set_uniform(program->id(), uniform, pass_.repeat_from);
+        else if (uniform.name == "repeat_to") set_uniform(program->id(), uniform, pass_.repeat_to);
+        else if (auto value = frame_constant(frame(), uniform.name)) set_uniform(program->id(), uniform, *value);
+        else if (const Parameter* p = node.parameters.find(uniform.name)) set_uniform(program->id(), uniform, p->value);
+    }
+
+    for (const OpaqueInfo& sampler : interface.samplers) {
+        if (sampler.name == "scene_textures") {
+            for (int i = 0; i < sampler.count; ++i) {
+                glBindTextureUnit(GLuint(sampler.unit + i), scene().texture_array(i).id());
+                glBindSampler(GLuint(sampler.unit + i), scene().texture_array_sampler(i));
+            }
+            continue;
+        }
+        if (sampler.name.starts_with("material_")) continue; // by draw
+        bool shadow = sampler.type == GL_SAMPLER_2D_SHADOW || sampler.type == GL_SAMPLER_2D_ARRAY_SHADOW;
+        GLuint texture = 0;
+        const PlanSlot* s = pass_.find(slot_name(sampler.name));
+        if (sampler.name == "scene_environment") texture = scene().environment().id();
+        else if (s && s->resource >= 0) {
+            texture = graph_.allocations_.view(s->resource, s->bind.previous, index_at(s->bind.mip, iteration),
+                                               index_at(s->bind.layer, iteration), sampler_is_2d(sampler.type)).id();
+        } else {
+            texture = graph_.neutral_texture(sampler.type, s ? s->neutral : glm::vec4(0));
+        }
+        glBindTextureUnit(GLuint(sampler.unit), texture);
+        glBindSampler(GLuint(sampler.unit), shadow ? graph_.comparison_sampler_.id() : 0);
+    }
+
+    for (const OpaqueInfo& image : interface.images) {
+        const PlanSlot* s = pass_.find(slot_name(image.name));
+        if (!s || s->resource < 0) {
+            glBindImageTexture(GLuint(image.unit), 0, 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA16F);
+            continue;
+        }
+        const GpuTexture& texture = graph_.allocations_.texture(s->resource, s->bind.previous);
+        int mip = std::clamp(index_at(s->bind.mip, iteration), 0, texture.desc().mips - 1);
+        int layer = index_at(s->bind.layer, iteration);
+        bool layered = texture.desc().kind != TextureKind::texture_2d && !image_is_2d(image.type);
+        GLenum access = s->use.writes ? (s->use.reads ? GL_READ_WRITE : GL_WRITE_ONLY) : GL_READ_ONLY;
+        glBindImageTexture(GLuint(image.unit), texture.id(), mip, layered, std::max(layer, 0), access, texture.desc().format);
+    }
+
+    for (const BlockInfo& block : interface.storage_blocks) {
+        GLuint buffer = 0;
+        const PlanSlot* s = pass_.find(slot_name(block.name));
+        if (block.name == "scene_vertices") buffer = scene().vertices().id();
+        else if (block.name == "scene_indices") buffer = scene().indices().id();
+        else if (block.name == "scene_draws") buffer = scene().draws().id();
+        else if (block.name == "scene_materials") buffer = scene().materials().id();
+        else if (block.name == "scene_lights") buffer = scene().lights().id();
+        else if (s && s->resource >= 0) buffer = graph_.allocations_.buffer(s->resource, s->bind.previous).id();
+        else buffer = graph_.frame_buffer_.id(); // a declined list: something readable must be there; its count is neutral
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block.binding, buffer);
+    }
+    for (const BlockInfo& block : interface.uniform_blocks) {
+        glBindBufferBase(GL_UNIFORM_BUFFER, block.binding, graph_.frame_buffer_.id());
+    }
+    return *program;
+}
+
+static glm::uvec3 groups(glm::ivec3 threads, glm::ivec3 local) {
+    return glm::uvec3((glm::max(threads, glm::ivec3(0)) + local - 1) / local);
+}
+
+void PassContext::dispatch(const std::string& name, glm::ivec3 threads) {
+    Program& program = use(name);
+    glm::uvec3 count = groups(threads, program.interface().local_size);
+    if (count.x && count.y && count.z) glDispatchCompute(count.x, count.y, count.z);
+}
+
+void PassContext::dispatch_indirect(const std::string& name, const std::string& slot_of_counts, GLintptr offset) {
+    use(name);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer(slot_of_counts).id());
+    glDispatchComputeIndirect(offset);
+}
+
+void PassContext::bind_targets(const Targets& targets) {
+    auto tuple_of = [&](const std::string& name) -> std::tuple<int, int, int> {
+        if (name.empty()) return {-1, 0, -1};
+        const PlanSlot& s = slot(name);
+        int mip = index_at(s.bind.mip, iteration), layer = index_at(s.bind.layer, iteration);
+        return {s.resource, mip >= 0 ? mip : targets.mip, layer >= 0 ? layer : targets.layer};
+    };
+    std::vector<std::tuple<int, int, int>> colours;
+    for (const std::string& colour : targets.colours) colours.push_back(tuple_of(colour));
+    auto depth = tuple_of(targets.depth);
+    auto first = colours.empty() ? depth : colours.front();
+    glm::ivec3 size = mip_size(graph_.allocations_.texture(std::get<0>(first)).desc(), std::get<1>(first));
+    glBindFramebuffer(GL_FRAMEBUFFER, graph_.allocations_.framebuffer(colours, depth, {0, 0}).id());
+    glViewport(0, 0, size.x, size.y);
+}
+
+void PassContext::draw_scene(const std::string& name, const Targets& targets, const DrawOptions& options) {
+    bind_targets(targets);
+    Program& program = use(name);
+    glBindVertexArray(scene().vertex_array());
+    GLint units[4] = {-1, -1, -1, -1};
+    static const char* const names[4] = {"material_base_colour", "material_metallic_roughness", "material_normal",
+                                         "material_emission"};
+    for (const OpaqueInfo& sampler : program.interface().samplers) {
+        for (int i = 0; i < 4; ++i) {
+            if (sampler.name == names[i]) units[i] = sampler.unit;
+        }
+    }
+    const auto& draws = scene().draw_list();
+    const auto& materials = scene().material_list();
+    int bound_material = -1;
+    bool culling = false;
+    glFrontFace(options.y_turned ? GL_CW : GL_CCW);
+    for (size_t i = 0; i < draws.size(); ++i) {
+        const GpuDraw& draw = draws[i];
+        bool dynamic = draw.flags & 1u;
+        if (options.which == DrawOptions::Which::static_only && dynamic) continue;
+        if (options.which == DrawOptions::Which::dynamic_only && !dynamic) continue;
+        if (options.keep && !options.keep(int(i))) continue;
+        int material = int(draw.material);
+        if (material != bound_material) {
+            bound_material = material;
+            const GpuScene::Bound bound[4] = {scene().base_colour(material), scene().metallic_roughness(material),
+                                              scene().normal(material), scene().emission(material)};
+            for (int t = 0; t < 4; ++t) {
+                if (units[t] < 0) continue;
+                glBindTextureUnit(GLuint(units[t]), bound[t].texture);
+                glBindSampler(GLuint(units[t]), bound[t].sampler);
+            }
+            bool cull = options.cull_back_faces && !materials[size_t(material)].double_sided;
+            if (cull != culling) (cull ? glEnable : glDisable)(GL_CULL_FACE);
+            culling = cull;
+        }
+        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, GLsizei(draw.index_count), GL_UNSIGNED_INT,
+                                            reinterpret_cast<const void*>(uintptr_t(draw.first_index) * sizeof(uint32_t)),
+                                            options.instances, GLuint(i));
+    }
+}
+
+void PassContext::draw_fullscreen(const std::string& program, const Targets& targets) {
+    draw_arrays(program, targets, GL_TRIANGLES, 3);
+}
+
+void PassContext::draw_arrays(const std::string& name, const Targets& targets, GLenum mode, int count, int instances) {
+    bind_targets(targets);
+    use(name);
+    glBindVertexArray(graph_.empty_vertex_array_.id());
+    glDrawArraysInstanced(mode, 0, count, instances);
+}
+
+} // namespace bounce

@@ -1,0 +1,78 @@
+#pragma once
+// What a pass sees while it executes: its slots, the scene, and commands that bind everything by name.
+
+#include "graph/frame_constants.h"
+#include "graph/gpu_scene.h"
+#include "graph/model.h"
+
+#include <functional>
+
+namespace bounce {
+
+class Graph;
+
+/// Which draws, and how.
+struct DrawOptions {
+    enum class Which { all, static_only, dynamic_only };
+    Which which = Which::all;
+    bool cull_back_faces = false; ///< of materials that are not double-sided
+    bool y_turned = false;        ///< the projection turns y over (the camera's does): front faces are clockwise
+    int instances = 1;            ///< gl_InstanceID = 0 … instances − 1 (layers of a layered draw)
+    /// Skips draws; the index is that of GpuScene::draw_list.
+    std::function<bool(int draw)> keep;
+};
+
+/// A framebuffer made of slots. Layer −1: all layers (layered rendering).
+struct Targets {
+    std::vector<std::string> colours;
+    std::string depth;
+    int mip = 0;
+    int layer = -1;
+};
+
+class PassContext {
+  public:
+    PassContext(Graph& graph, const PlanPass& pass, int step) : iteration(step), graph_(graph), pass_(pass) {}
+
+    const int iteration; ///< the step of a repeated pass
+    const SceneFacts& facts() const;
+    const GpuScene& scene() const;
+    const FrameConstants& frame() const;
+    const PlanPass& plan() const { return pass_; }
+
+    /// The whole texture or buffer behind a slot. Throws Error when the slot has none (a declined producer).
+    const GpuTexture& texture(const std::string& slot) const;
+    const Buffer& buffer(const std::string& slot) const;
+    bool has(const std::string& slot) const;
+    /// A number by name, as expressions in graph files see it: a graph or pass parameter, a side of a resource.
+    std::optional<double> number(const std::string& name) const;
+    /// Size of a texture slot at the mip that it is bound to in this step.
+    glm::ivec3 size(const std::string& slot) const;
+    /// Last frame's copy exists and holds something.
+    bool history_valid() const;
+
+    /// The value of a constant announced by PassDescription::constant, for the next dispatch or draw.
+    void set(const std::string& name, const ParameterValue& value);
+
+    /// At least so many invocations (rounded up to whole groups).
+    void dispatch(const std::string& program, glm::ivec3 threads);
+    void dispatch_indirect(const std::string& program, const std::string& slot, GLintptr offset = 0);
+    /// Draws the scene with the state that is set (glEnable …), binding each material's textures. State is put back to
+    /// the graph's defaults by the caller: use a Raster object.
+    void draw_scene(const std::string& program, const Targets& targets, const DrawOptions& options = {});
+    /// One triangle that covers the target; gl_VertexID 0 … 2.
+    void draw_fullscreen(const std::string& program, const Targets& targets);
+    /// `count` vertices of no attributes (points, lines, triangles).
+    void draw_arrays(const std::string& program, const Targets& targets, GLenum mode, int count, int instances = 1);
+
+  private:
+    const PlanSlot& slot(const std::string& name) const;
+    Program& use(const std::string& program);
+    void bind_targets(const Targets& targets);
+
+    Graph& graph_;
+    const PlanPass& pass_;
+    std::vector<std::pair<std::string, ParameterValue>> constants_;
+};
+
+} // namespace bounce

@@ -1,0 +1,148 @@
+// The part of Graph that runs a frame.
+#include "core/error.h"
+#include "core/log.h"
+#include "gpu/capabilities.h"
+#include "graph/graph.h"
+
+#include <algorithm>
+
+namespace bounce {
+
+static constexpr size_t k_timing_history = 120;
+
+/// The state that every pass starts from.
+static void default_state() {
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glDisable(GL_DEPTH_CLAMP);
+    glDisable(GL_STENCIL_TEST);
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+void Graph::execute(const FrameInputs& inputs) {
+    if (!planned_) throw Error("the graph has no plan yet");
+    inputs_ = &inputs;
+    non_finite_.clear();
+    frame_buffer_.update(0, sizeof(FrameConstants), &inputs.constants);
+    for (const PlanPass& pass : plan_.passes) run_pass(pass);
+    allocations_.keep_previous(plan_);
+    history_valid_ = true;
+    glMemoryBarrier(GL_ALL_BARRIER_BITS); // whoever looks at the results (panels, readback) sees them
+    default_state();
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glUseProgram(0);
+    inputs_ = nullptr;
+    ++frames_;
+}
+
+void Graph::run_pass(const PlanPass& pass) {
+    PassNode& node = *model_->nodes()[size_t(pass.node)];
+    DebugGroup group(pass.id);
+    Times& times = times_[pass.id];
+    if (!times.timer) times.timer = std::make_unique<GpuTimer>(timer_mode_);
+    times.timer->begin();
+    bool usable = std::all_of(node.programs.begin(), node.programs.end(), [](auto& p) { return p->usable(); });
+    for (int resource : pass.clears) {
+        allocations_.clear(resource, plan_.resources[size_t(resource)].declaration.neutral);
+    }
+    if (pass.barriers) glMemoryBarrier(pass.barriers);
+    if (usable) {
+        for (int step = pass.repeat_from; step < pass.repeat_to; ++step) {
+            if (step > pass.repeat_from && pass.step_barriers) glMemoryBarrier(pass.step_barriers);
+            default_state();
+            PassContext context(*this, pass, step);
+            node.pass->execute(context);
+        }
+    } else {
+        fill_failed(pass);
+    }
+    times.timer->end();
+    take_timings(times);
+    if (check_nan) look_for_nan(pass);
+}
+
+void Graph::take_timings(Times& times) {
+    while (auto ms = times.timer->take()) {
+        times.history.push_back(*ms);
+        if (times.history.size() > k_timing_history) times.history.pop_front();
+    }
+}
+
+void Graph::finish_timings() {
+    glFinish();
+    for (auto& [id, times] : times_) take_timings(times);
+}
+
+/// A pass whose program never compiled: its float colour outputs turn magenta, the others neutral.
+void Graph::fill_failed(const PlanPass& pass) {
+    for (const PlanSlot& slot : pass.slots) {
+        if (slot.resource < 0 || !slot.use.writes) continue;
+        const PlanResource& resource = plan_.resources[size_t(slot.resource)];
+        bool colour = false;
+        if (!resource.is_buffer()) {
+            const Format& format = format_by_enum(resource.texture.format);
+            colour = format.channels >= 3 && !format.is_integer() && !format.is_depth();
+        }
+        allocations_.clear(slot.resource, colour ? glm::vec4(1, 0, 1, 1) : resource.declaration.neutral);
+    }
+}
+
+void Graph::look_for_nan(const PlanPass& pass) {
+    if (!nan_check_) nan_check_ = std::make_unique<NanCheck>();
+    for (const PlanSlot& slot : pass.slots) {
+        if (slot.resource < 0 || !slot.use.writes || plan_.resources[size_t(slot.resource)].is_buffer()) continue;
+        const PlanResource& resource = plan_.resources[size_t(slot.resource)];
+        uint64_t count = nan_check_->count(allocations_.texture(slot.resource));
+        if (!count) continue;
+        non_finite_[resource.name()] = count;
+        spdlog::warn("pass '{}' wrote {} values to '{}' that are not finite", pass.id, count, resource.name());
+    }
+}
+
+static TextureKind kind_of_sampler(GLenum type) {
+    switch (type) {
+    case GL_SAMPLER_3D:
+    case GL_INT_SAMPLER_3D:
+    case GL_UNSIGNED_INT_SAMPLER_3D: return TextureKind::texture_3d;
+    case GL_SAMPLER_2D_ARRAY:
+    case GL_SAMPLER_2D_ARRAY_SHADOW:
+    case GL_INT_SAMPLER_2D_ARRAY:
+    case GL_UNSIGNED_INT_SAMPLER_2D_ARRAY: return TextureKind::texture_2d_array;
+    default: return TextureKind::texture_2d;
+    }
+}
+
+static GLenum neutral_format(GLenum type) {
+    switch (type) {
+    case GL_UNSIGNED_INT_SAMPLER_2D:
+    case GL_UNSIGNED_INT_SAMPLER_3D:
+    case GL_UNSIGNED_INT_SAMPLER_2D_ARRAY: return GL_RGBA32UI;
+    case GL_INT_SAMPLER_2D:
+    case GL_INT_SAMPLER_3D:
+    case GL_INT_SAMPLER_2D_ARRAY: return GL_R32I;
+    case GL_SAMPLER_2D_SHADOW:
+    case GL_SAMPLER_2D_ARRAY_SHADOW: return GL_DEPTH_COMPONENT32F;
+    default: return GL_RGBA16F;
+    }
+}
+
+GLuint Graph::neutral_texture(GLenum type, glm::vec4 value) {
+    auto key = std::make_pair(type, std::array<float, 4>{value.x, value.y, value.z, value.w});
+    auto found = neutrals_.find(key);
+    if (found == neutrals_.end()) {
+        GpuTexture texture({kind_of_sampler(type), neutral_format(type), {1, 1, 1}, 1}, "neutral");
+        texture.clear(value);
+        found = neutrals_.emplace(key, std::move(texture)).first;
+    }
+    return found->second.id();
+}
+
+} // namespace bounce

@@ -1,0 +1,155 @@
+#include "graph/gpu_scene.h"
+
+#include "core/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace bounce {
+
+int shadow_views_of(LightType type) {
+    return type == LightType::point ? 6 : 1;
+}
+
+static GpuTexture one_texel(const char* name, TextureKind kind, glm::vec4 value) {
+    GpuTexture texture({kind, GL_RGBA8, {1, 1, 1}, 1}, name);
+    texture.clear(value);
+    return texture;
+}
+
+GpuScene::GpuScene(const Scene& scene, const Environment& environment)
+    : vertices_(scene.vertices.size() * sizeof(Vertex), scene.vertices.data(), "scene.vertices"),
+      indices_(scene.indices.size() * sizeof(uint32_t), scene.indices.data(), "scene.indices"),
+      vertex_array_("scene vertices"), white_(one_texel("white", TextureKind::texture_2d, glm::vec4(1))),
+      white_array_(one_texel("white array", TextureKind::texture_2d_array, glm::vec4(1))),
+      flat_normal_(one_texel("flat normal", TextureKind::texture_2d, {0.5f, 0.5f, 1, 1})) {
+    GLuint array = vertex_array_.id();
+    glVertexArrayVertexBuffer(array, 0, vertices_.id(), 0, sizeof(Vertex));
+    glVertexArrayElementBuffer(array, indices_.id());
+    for (GLuint location = 0; location < 5; ++location) {
+        glEnableVertexArrayAttrib(array, location);
+        glVertexArrayAttribBinding(array, location, 0);
+        if (location < 3) glVertexArrayAttribFormat(array, location, 4, GL_FLOAT, GL_FALSE, 16 * location);
+    }
+    glVertexArrayAttribFormat(array, 3, 2, GL_FLOAT, GL_FALSE, 48);
+    glVertexArrayAttribIFormat(array, 4, 2, GL_UNSIGNED_INT, 56);
+
+    const Image& map = environment.map;
+    if (map.empty()) {
+        environment_ = GpuTexture({TextureKind::texture_2d, GL_RGBA16F, {1, 1, 1}, 1}, "scene.environment");
+        environment_.clear(glm::vec4(1));
+    } else {
+        environment_ = GpuTexture({TextureKind::texture_2d, GL_RGBA32F, {map.width, map.height, 1}, 1}, "scene.environment");
+        GLenum format = map.channels == 4 ? GL_RGBA : GL_RGB;
+        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+        glTextureSubImage2D(environment_.id(), 0, 0, 0, map.width, map.height, format, GL_FLOAT, map.pixels.data());
+        glTextureParameteri(environment_.id(), GL_TEXTURE_WRAP_S, GL_REPEAT);
+    }
+    upload_textures(scene);
+    update_materials(scene.materials);
+}
+
+const GpuTexture& GpuScene::texture_array(int i) const {
+    return i < int(arrays_.size()) ? arrays_[size_t(i)].texture : white_array_;
+}
+
+GLuint GpuScene::texture_array_sampler(int i) const {
+    return i < int(arrays_.size()) ? arrays_[size_t(i)].sampler : 0;
+}
+
+GpuTextureUse GpuScene::use_of(const TextureSlot& slot) const {
+    GpuTextureUse use;
+    if (slot.texture < 0) return use;
+    std::tie(use.array, use.layer) = places_[size_t(slot.texture)];
+    use.uv_set = uint32_t(slot.uv_set);
+    use.rotation = slot.rotation;
+    use.offset = slot.offset;
+    use.scale = slot.scale;
+    return use;
+}
+
+void GpuScene::update_materials(const std::vector<Material>& materials) {
+    material_list_ = materials;
+    std::vector<GpuMaterial> packed;
+    slots_.clear();
+    auto bound = [&](const TextureSlot& slot, const GpuTexture& fallback) -> Bound {
+        if (slot.texture < 0) return {fallback.id(), 0};
+        return {views_[size_t(slot.texture)].id(), view_samplers_[size_t(slot.texture)]};
+    };
+    for (const Material& m : materials) {
+        GpuMaterial out;
+        out.base_colour = m.base_colour;
+        out.emission = m.emission;
+        out.alpha_cutoff = m.alpha_mask ? m.alpha_cutoff : -1.0f;
+        out.metallic = m.metallic;
+        out.roughness = m.roughness;
+        out.normal_scale = m.normal_scale;
+        out.flags = m.double_sided ? 1u : 0u;
+        out.base_colour_texture = use_of(m.base_colour_texture);
+        out.metallic_roughness_texture = use_of(m.metallic_roughness_texture);
+        out.normal_texture = use_of(m.normal_texture);
+        out.emission_texture = use_of(m.emission_texture);
+        packed.push_back(out);
+        slots_.push_back({bound(m.base_colour_texture, white_), bound(m.metallic_roughness_texture, white_),
+                          bound(m.normal_texture, flat_normal_), bound(m.emission_texture, white_)});
+    }
+    uint64_t bytes = packed.size() * sizeof(GpuMaterial);
+    if (materials_.bytes() != bytes || !materials_) materials_ = Buffer(bytes, packed.data(), "scene.materials");
+    else materials_.update(0, bytes, packed.data());
+}
+
+void GpuScene::update(const SceneState& state) {
+    draw_list_.clear();
+    for (const Instance& instance : state.instances) {
+        GpuDraw draw;
+        draw.world = instance.world;
+        draw.previous_world = instance.previous_world;
+        // The adjugate's transpose turns normals even where the matrix is singular.
+        glm::mat3 m(instance.world);
+        glm::mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+        float sign = glm::determinant(m) < 0 ? -1.0f : 1.0f;
+        draw.normal_matrix = glm::mat4(cofactors * sign);
+        draw.material = uint32_t(instance.primitive.material);
+        draw.first_index = instance.primitive.first_index;
+        draw.index_count = instance.primitive.index_count;
+        draw.flags = instance.dynamic ? 1u : 0u;
+        draw_list_.push_back(draw);
+    }
+    light_list_.clear();
+    shadow_view_count_ = 0;
+    for (const Light& light : state.lights) {
+        GpuLight out;
+        out.position = light.position;
+        out.type = uint32_t(light.type);
+        out.direction = light.direction;
+        out.inner_cone_cos = std::cos(light.inner_cone);
+        out.intensity = light.intensity;
+        out.outer_cone_cos = std::cos(light.outer_cone);
+        out.radius = light.radius;
+        out.angular_radius = light.angular_radius;
+        out.shadow_base = shadow_view_count_;
+        out.shadow_count = shadow_views_of(light.type);
+        shadow_view_count_ += out.shadow_count;
+        light_list_.push_back(out);
+    }
+    auto upload = [](Buffer& buffer, const auto& list, const char* name) {
+        uint64_t bytes = list.size() * sizeof(list[0]);
+        if (!buffer || buffer.bytes() != bytes) buffer = Buffer(bytes, list.data(), name);
+        else buffer.update(0, bytes, list.data());
+    };
+    upload(draws_, draw_list_, "scene.draws");
+    upload(lights_, light_list_, "scene.lights");
+}
+
+uint64_t GpuScene::geometry_bytes() const {
+    return vertices_.bytes() + indices_.bytes() + draws_.bytes() + materials_.bytes() + lights_.bytes();
+}
+
+uint64_t GpuScene::texture_bytes() const {
+    uint64_t bytes = bounce::texture_bytes(environment_.desc());
+    for (const Array& array : arrays_) bytes += bounce::texture_bytes(array.texture.desc());
+    return bytes;
+}
+
+} // namespace bounce

@@ -1,0 +1,251 @@
+#include "graph/graph.h"
+
+#include "core/error.h"
+#include "core/log.h"
+#include "core/text.h"
+#include "gpu/capabilities.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace bounce {
+
+Graph::Graph(const std::filesystem::path& file, TimerMode timer_mode)
+    : model_(std::make_unique<GraphModel>(load_graph_file(file))), timer_mode_(timer_mode),
+      frame_buffer_(sizeof(FrameConstants), nullptr, "Frame"),
+      comparison_sampler_(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, "depth comparison"), empty_vertex_array_("no attributes") {
+#ifdef BOUNCE_DEBUG
+    check_nan = true;
+#endif
+    glSamplerParameteri(comparison_sampler_.id(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    glSamplerParameteri(comparison_sampler_.id(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    watch();
+}
+
+Graph::~Graph() = default;
+
+void Graph::watch() {
+    watch_.watch(model_->files());
+}
+
+// --- planning --------------------------------------------------------------------------------------------------------
+
+static bool same_needs(const SceneFacts& a, const SceneFacts& b) {
+    auto key = [](const SceneFacts& f) {
+        return std::make_tuple(f.triangles, f.instances, f.dynamic_instances, f.glossy_materials, f.emissive_materials,
+                               f.alpha_tested_materials, f.point_lights, f.spot_lights, f.directional_lights,
+                               f.animated_lights, f.environment, f.materials);
+    };
+    return key(a) == key(b);
+}
+
+void Graph::prepare(const SceneFacts& facts, glm::ivec2 size) {
+    if (!dirty_ && planned_ && plan_.size == size && same_needs(facts, planned_facts_)) return;
+    dirty_ = false;
+    try {
+        plan_again(facts, size);
+        plan_problem_.clear();
+    } catch (const Error& error) {
+        if (!planned_) throw;
+        if (plan_problem_ != error.what()) spdlog::error("{}", error.what());
+        plan_problem_ = error.what();
+    }
+    build_programs();
+    watch();
+}
+
+void Graph::plan_again(const SceneFacts& facts, glm::ivec2 size) {
+    Plan next = model_->plan(facts, size);
+    bool resized = planned_ && plan_.size != size;
+    bool lost = allocations_.update(next);
+    plan_ = std::move(next);
+    planned_facts_ = facts;
+    planned_ = true;
+    if (resized || lost) reset_history();
+}
+
+/// Formats of the images that a pass stores to, for layout(FORMAT_slot).
+Defines Graph::formats_of(const PlanPass& pass) const {
+    Defines formats;
+    for (const PlanSlot& slot : pass.slots) {
+        if (slot.use.usage != Usage::image) continue;
+        std::string format = "rgba16f";
+        if (slot.resource >= 0) format = plan_.resources[size_t(slot.resource)].declaration.format;
+        formats["FORMAT_" + slot_identifier(slot.use.slot)] = format;
+    }
+    return formats;
+}
+
+std::vector<std::string> Graph::check_interface(const PassNode& node, const PlanPass& pass,
+                                                const ProgramInterface& interface) const {
+    std::vector<std::string> problems;
+    std::vector<std::string> constants = frame_constant_names();
+    constants.insert(constants.end(), {"iteration", "repeat_from", "repeat_to"});
+    constants.insert(constants.end(), node.description->constants.begin(), node.description->constants.end());
+    for (const UniformInfo& uniform : interface.uniforms) {
+        bool known = std::find(constants.begin(), constants.end(), uniform.name) != constants.end();
+        const Parameter* parameter = node.parameters.find(uniform.name);
+        if (!known && parameter && !uniform_takes(uniform.type, parameter->value)) {
+            problems.push_back(fmt::format("uniform '{}' and the parameter of that name are of different types", uniform.name));
+        }
+        if (known || parameter) continue;
+        std::vector<std::string> names = node.parameters.names();
+        names.insert(names.end(), constants.begin(), constants.end());
+        problems.push_back(fmt::format("uniform '{0}' has no source{1}; to make it a parameter write: uniform … {0} = …;  //! "
+                                       "[least, greatest] what it is",
+                                       uniform.name, did_you_mean(uniform.name, names)));
+    }
+    auto check_slot = [&](const std::string& identifier) {
+        if (!pass.find(slot_name(identifier)) && !identifier.starts_with("scene_") && !identifier.starts_with("material_")) {
+            problems.push_back(fmt::format("'{}' is no slot of pass '{}'", slot_name(identifier), pass.id));
+        }
+    };
+    for (const OpaqueInfo& sampler : interface.samplers) check_slot(sampler.name);
+    for (const OpaqueInfo& image : interface.images) check_slot(image.name);
+    for (const BlockInfo& block : interface.storage_blocks) check_slot(block.name);
+    for (const BlockInfo& block : interface.uniform_blocks) {
+        if (block.name != "Frame") problems.push_back("uniform block '" + block.name + "' has no source; there is: Frame");
+    }
+    return problems;
+}
+
+void Graph::build_programs() {
+    for (const PlanPass& pass : plan_.passes) {
+        PassNode& node = *model_->nodes()[size_t(pass.node)];
+        model_->scan(node, formats_of(pass));
+        for (const auto& program : node.programs) {
+            std::string text;
+            for (const ShaderSource& source : program->sources()) text += source.text + '\0';
+            std::string& built = built_[node.id() + "/" + program->name()];
+            bool same = built == text;
+            if (same && program->errors().empty() && program->usable()) continue;
+            built = text;
+            bool good = program->build([&](const ProgramInterface& i) { return check_interface(node, pass, i); });
+            if (good) newest_files_ = program->files();
+            for (const ShaderError& error : program->errors()) spdlog::error("shader: {}", error.text());
+            if (good && frames_ > 0) spdlog::info("shader: {} compiled", program->stages().front().string());
+        }
+    }
+}
+
+void Graph::reset_history() {
+    if (!planned_) return;
+    allocations_.reset(plan_);
+    history_valid_ = false;
+    for (const auto& node : model_->nodes()) node->pass->reset_history();
+}
+
+// --- reloading -------------------------------------------------------------------------------------------------------
+
+bool Graph::poll_files() {
+    std::vector<std::filesystem::path> changed = watch_.poll();
+    if (changed.empty()) return false;
+    dirty_ = true;
+    if (std::find(changed.begin(), changed.end(), model_->file().path) != changed.end()) {
+        try {
+            auto next = std::make_unique<GraphModel>(load_graph_file(model_->file().path));
+            next->plan(planned_facts_, plan_.size); // refuses before anything of the old graph is given up
+            next->adopt(*model_);
+            model_ = std::move(next);
+            // The plan's node indices follow the new model.
+            plan_again(planned_facts_, plan_.size);
+            file_problem_.clear();
+            plan_problem_.clear();
+            spdlog::info("graph '{}' reloaded", model_->file().name);
+            reset_history();
+        } catch (const Error& error) {
+            file_problem_ = error.what();
+            spdlog::error("{}", file_problem_);
+        }
+    }
+    for (const auto& node : model_->nodes()) {
+        bool touched = std::any_of(node->programs.begin(), node->programs.end(), [&](auto& program) {
+            const auto& files = program->files();
+            return std::any_of(changed.begin(), changed.end(),
+                               [&](auto& file) { return std::find(files.begin(), files.end(), file) != files.end(); });
+        });
+        if (touched) model_->scan(*node);
+    }
+    return true;
+}
+
+std::vector<std::filesystem::path> Graph::newest_program_files() const {
+    return newest_files_;
+}
+
+void Graph::disable_programs(const std::vector<std::filesystem::path>& files) {
+    for (const auto& node : model_->nodes()) {
+        for (const auto& program : node->programs) {
+            if (program->files() != files) continue;
+            program->disable();
+            std::string text;
+            for (const ShaderSource& source : program->sources()) text += source.text + '\0';
+            built_[node->id() + "/" + program->name()] = text;
+        }
+    }
+}
+
+std::vector<GraphProblem> Graph::problems() const {
+    std::vector<GraphProblem> problems;
+    auto graph_problem = [&](const std::string& text) {
+        if (!text.empty()) problems.push_back({"graph", {model_->file().path.filename(), 0, "", text}});
+    };
+    graph_problem(file_problem_);
+    graph_problem(plan_problem_);
+    for (const auto& node : model_->nodes()) {
+        for (const auto& program : node->programs) {
+            if (program->disabled()) {
+                problems.push_back({"pass " + node->id(), {program->stages().front(), 0, "",
+                                                           "disabled: it hung the GPU; edit it to try again"}});
+            }
+            for (const ShaderError& error : program->errors()) problems.push_back({"pass " + node->id(), error});
+        }
+    }
+    return problems;
+}
+
+bool Graph::pass_is_stale(const std::string& id) const {
+    const PassNode* node = model_->find_node(id);
+    return node && std::any_of(node->programs.begin(), node->programs.end(), [](auto& p) { return !p->errors().empty() || !p->usable(); });
+}
+
+// --- looking ---------------------------------------------------------------------------------------------------------
+
+PassTiming Graph::timing(const std::string& id) const {
+    auto found = times_.find(id);
+    PassTiming timing;
+    if (found == times_.end() || found->second.history.empty()) return timing;
+    std::vector<double> sorted(found->second.history.begin(), found->second.history.end());
+    timing.last = sorted.back();
+    std::sort(sorted.begin(), sorted.end());
+    auto at = [&](double share) { return sorted[size_t(share * double(sorted.size() - 1) + 0.5)]; };
+    timing.median = at(0.5);
+    timing.low = at(0.1);
+    timing.high = at(0.9);
+    timing.samples = int(sorted.size());
+    return timing;
+}
+
+double Graph::frame_ms() const {
+    double sum = 0;
+    for (const PlanPass& pass : plan_.passes) sum += timing(pass.id).median;
+    return sum;
+}
+
+const GpuTexture* Graph::texture(const std::string& resource) const {
+    for (size_t i = 0; i < plan_.resources.size(); ++i) {
+        const PlanResource& known = plan_.resources[i];
+        if (known.name() == resource && !known.is_buffer()) return &allocations_.texture(int(i));
+    }
+    return nullptr;
+}
+
+const Buffer* Graph::buffer(const std::string& resource) const {
+    for (size_t i = 0; i < plan_.resources.size(); ++i) {
+        const PlanResource& known = plan_.resources[i];
+        if (known.name() == resource && known.is_buffer()) return &allocations_.buffer(int(i));
+    }
+    return nullptr;
+}
+
+} // namespace bounce

@@ -1,0 +1,120 @@
+#pragma once
+// A running graph: its plan, its OpenGL objects, reloads that never cost the running picture.
+
+#include "core/file_watch.h"
+#include "gpu/timer.h"
+#include "graph/allocations.h"
+#include "graph/context.h"
+#include "graph/nan_check.h"
+
+#include <deque>
+#include <memory>
+
+namespace bounce {
+
+/// GPU time of a pass over the last frames, milliseconds.
+struct PassTiming {
+    double last = 0, median = 0;
+    double low = 0, high = 0; ///< 10th and 90th percentile
+    int samples = 0;
+};
+
+struct FrameInputs {
+    const GpuScene* scene = nullptr;
+    const SceneFacts* facts = nullptr;
+    FrameConstants constants; ///< previous_view_projection, lights … filled in by the session
+};
+
+/// What can go wrong while the program lives on.
+struct GraphProblem {
+    std::string where; ///< "graph file", "pass direct", …
+    ShaderError error;
+};
+
+class Graph {
+  public:
+    /// Throws Error when the file is bad; shaders that do not compile only show in problems().
+    Graph(const std::filesystem::path& file, TimerMode timer_mode);
+    ~Graph();
+
+    GraphModel& model() { return *model_; }
+    const GraphModel& model() const { return *model_; }
+    const Plan& plan() const { return plan_; }
+    bool planned() const { return planned_; }
+
+    /// Re-plans, allocates and compiles as far as anything changed. Throws Error the first time only; later a failure
+    /// keeps the last good plan and shows in problems().
+    void prepare(const SceneFacts& facts, glm::ivec2 size);
+    /// One frame. prepare() must have run.
+    void execute(const FrameInputs& inputs);
+
+    /// Looks at the watched files; reloads what changed, keeping the last good graph. Returns true when something changed.
+    bool poll_files();
+    /// A parameter or switch was changed: plan again at the next prepare().
+    void touch() { dirty_ = true; }
+    /// Camera cut: persistent and previous contents are void.
+    void reset_history();
+    /// After a GPU reset: disables the programs that were compiled last, which hung it.
+    std::vector<std::filesystem::path> newest_program_files() const;
+    void disable_programs(const std::vector<std::filesystem::path>& files);
+
+    /// Every problem at present: the graph file's, the plan's, each shader's.
+    std::vector<GraphProblem> problems() const;
+    /// Whether a pass runs with a program older than its text, or not at all.
+    bool pass_is_stale(const std::string& id) const;
+
+    /// Waits for measurements that are still on their way (headless runs, before they report).
+    void finish_timings();
+    PassTiming timing(const std::string& id) const;
+    double frame_ms() const; ///< sum of the passes' medians
+    /// The texture behind a resource; null for buffers and unknown names.
+    const GpuTexture* texture(const std::string& resource) const;
+    const Buffer* buffer(const std::string& resource) const;
+
+    /// Non-finite values are looked for after each pass when set (always in debug builds).
+    bool check_nan = false;
+    const std::map<std::string, uint64_t>& non_finite() const { return non_finite_; } ///< resource → count, newest frame
+    uint64_t frames() const { return frames_; }
+
+  private:
+    friend class PassContext;
+    struct Times {
+        std::unique_ptr<GpuTimer> timer;
+        std::deque<double> history;
+    };
+
+    void plan_again(const SceneFacts& facts, glm::ivec2 size);
+    void build_programs();
+    Defines formats_of(const PlanPass& pass) const;
+    std::vector<std::string> check_interface(const PassNode& node, const PlanPass& pass, const ProgramInterface& interface) const;
+    void take_timings(Times& times);
+    void run_pass(const PlanPass& pass);
+    void fill_failed(const PlanPass& pass);
+    void look_for_nan(const PlanPass& pass);
+    GLuint neutral_texture(GLenum sampler_type, glm::vec4 value);
+    void watch();
+
+    std::unique_ptr<GraphModel> model_;
+    Plan plan_;
+    bool planned_ = false;
+    bool dirty_ = true;
+    bool history_valid_ = false;
+    TimerMode timer_mode_;
+    Allocations allocations_;
+    FileWatch watch_;
+    std::map<std::string, Times> times_;
+    std::map<std::string, std::string> built_; ///< per "id/program": the text that was last given to the driver
+    std::vector<std::filesystem::path> newest_files_;
+    std::string file_problem_, plan_problem_;
+    SceneFacts planned_facts_;
+    Buffer frame_buffer_;
+    Sampler comparison_sampler_;
+    VertexArray empty_vertex_array_;
+    std::map<std::pair<GLenum, std::array<float, 4>>, GpuTexture> neutrals_;
+    std::unique_ptr<NanCheck> nan_check_;
+    std::map<std::string, uint64_t> non_finite_;
+    uint64_t frames_ = 0;
+    const FrameInputs* inputs_ = nullptr; ///< while executing
+};
+
+} // namespace bounce

@@ -1,0 +1,338 @@
+#include "graph/graph_file.h"
+
+#include "core/error.h"
+#include "core/image.h"
+#include "core/paths.h"
+#include "core/text.h"
+#include "graph/pass.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
+namespace bounce {
+
+using nlohmann::json;
+
+namespace {
+
+/// Reads one JSON object and reports what is wrong with it under a path like passes[2].bind.
+class ObjectReader {
+  public:
+    ObjectReader(const json& object, std::string where, ErrorList& errors)
+        : object_(object), where_(std::move(where)), errors_(errors) {
+        if (!object.is_object()) error("must be an object {…}");
+    }
+    ~ObjectReader() {
+        if (!object_.is_object()) return;
+        for (const auto& [key, value] : object_.items()) {
+            if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
+                errors_.add(fmt::format("{}: there is no key '{}'{}", where_, key, did_you_mean(key, known_)));
+            }
+        }
+    }
+    void error(const std::string& message) { errors_.add(where_ + ": " + message); }
+    const json* get(const std::string& key) {
+        known_.push_back(key);
+        if (!object_.is_object()) return nullptr;
+        auto found = object_.find(key);
+        return found == object_.end() ? nullptr : &*found;
+    }
+    bool has(const std::string& key) const { return object_.is_object() && object_.contains(key); }
+    std::string text(const std::string& key, const std::string& fallback = "") {
+        const json* value = get(key);
+        if (!value) return fallback;
+        if (value->is_string()) return value->get<std::string>();
+        error("'" + key + "' must be text");
+        return fallback;
+    }
+    bool flag(const std::string& key, bool fallback) {
+        const json* value = get(key);
+        if (!value) return fallback;
+        if (value->is_boolean()) return value->get<bool>();
+        error("'" + key + "' must be true or false");
+        return fallback;
+    }
+    /// A number or an expression, as text.
+    std::string expression(const std::string& key, const std::string& fallback) {
+        const json* value = get(key);
+        return value ? expression_of(*value, key, fallback) : fallback;
+    }
+    std::string expression_of(const json& value, const std::string& key, const std::string& fallback) {
+        if (value.is_string()) return value.get<std::string>();
+        if (value.is_number()) return value.dump();
+        error("'" + key + "' must be a number or an expression");
+        return fallback;
+    }
+    const std::string& where() const { return where_; }
+
+  private:
+    const json& object_;
+    std::string where_;
+    ErrorList& errors_;
+    std::vector<std::string> known_;
+};
+
+ParameterInfo read_parameter(const std::string& name, const json& value, ErrorList& errors) {
+    ObjectReader reader(value, "parameters." + name, errors);
+    ParameterInfo info;
+    info.name = name;
+    info.unit = reader.text("unit");
+    info.help = reader.text("help");
+    const json* range = reader.get("range");
+    const json* choices = reader.get("choices");
+    const json* fallback = reader.get("default");
+    if (choices && choices->is_array()) {
+        info.kind = ParameterKind::enumeration;
+        for (const json& choice : *choices) info.choices.push_back(choice.is_string() ? choice.get<std::string>() : choice.dump());
+    } else if (fallback && fallback->is_boolean()) {
+        info.kind = ParameterKind::boolean;
+    } else if (fallback && fallback->is_number_integer()) {
+        info.kind = ParameterKind::integer;
+    } else if (fallback && fallback->is_array()) {
+        info.kind = fallback->size() == 2 ? ParameterKind::vec2 : fallback->size() == 4 ? ParameterKind::vec4 : ParameterKind::vec3;
+    }
+    if (range) {
+        if (range->is_array() && range->size() == 2 && (*range)[0].is_number() && (*range)[1].is_number()) {
+            info.min = (*range)[0].get<double>();
+            info.max = (*range)[1].get<double>();
+        } else {
+            reader.error("'range' is written [least, greatest]");
+        }
+    }
+    if (!fallback) {
+        reader.error("'default' is missing");
+        return info;
+    }
+    try {
+        info.default_value = parse_value(info, *fallback);
+    } catch (const Error& error) {
+        reader.error(error.what());
+    }
+    return info;
+}
+
+ResourceDeclaration read_resource(const std::string& name, const json& value, std::vector<std::string>& fields,
+                                  ErrorList& errors) {
+    ObjectReader reader(value, "resources." + name, errors);
+    ResourceDeclaration resource;
+    resource.name = name;
+    resource.declared_by = "graph file";
+    try {
+        check_resource_name(name);
+    } catch (const Error& error) {
+        reader.error(error.what());
+    }
+    if (value.is_object()) {
+        for (const auto& item : value.items()) fields.push_back(item.key());
+    }
+    std::string kind = reader.text("kind", "texture_2d");
+    const std::vector<std::string> kinds = {"texture_2d", "texture_2d_array", "texture_3d", "buffer"};
+    auto found = std::find(kinds.begin(), kinds.end(), kind);
+    if (found == kinds.end()) reader.error("there is no kind '" + kind + "'" + did_you_mean(kind, kinds));
+    else resource.kind = ResourceKind(found - kinds.begin());
+    resource.format = reader.text("format", "rgba16f");
+    if (resource.kind != ResourceKind::buffer) {
+        try {
+            format_by_name(resource.format);
+        } catch (const Error& error) {
+            reader.error(error.what());
+        }
+    }
+    if (const json* size = reader.get("size")) {
+        if (size->is_array() && size->size() >= 1 && size->size() <= 3) {
+            resource.size = Extent(1, 1, 1);
+            for (size_t i = 0; i < size->size(); ++i) resource.size.parts[i] = reader.expression_of((*size)[i], "size", "1");
+        } else if (size->is_string()) {
+            resource.size = Extent::relative_to(size->get<std::string>());
+        } else if (size->is_object()) {
+            ObjectReader relative(*size, reader.where() + ".size", errors);
+            std::string of = relative.text("of");
+            std::string scale = relative.expression("scale", "1");
+            auto part = [&](const char* side) { return fmt::format("max(1, ceil({}.{} * ({})))", of, side, scale); };
+            resource.size = Extent(part("width"), part("height"), of + ".depth");
+        } else {
+            reader.error("'size' is [x, y, z], the name of a resource, or {\"of\": resource, \"scale\": s}");
+        }
+    }
+    resource.mips = reader.expression("mips", "1");
+    resource.count = reader.expression("count", "0");
+    resource.persistent = reader.flag("persistent", false);
+    resource.overwritten = !reader.flag("clear", true);
+    if (const json* stride = reader.get("stride")) {
+        if (stride->is_number_integer() && stride->get<int>() > 0) resource.stride = stride->get<int>();
+        else reader.error("'stride' is a number of bytes above zero");
+    }
+    if (const json* neutral = reader.get("neutral")) {
+        ParameterInfo info;
+        info.name = "neutral";
+        info.kind = ParameterKind::vec4;
+        try {
+            resource.neutral = std::get<glm::vec4>(parse_value(info, *neutral));
+        } catch (const Error& error) {
+            reader.error(error.what());
+        }
+    }
+    return resource;
+}
+
+BindEntry read_bind(const json& value, const std::string& where, ErrorList& errors) {
+    BindEntry bind;
+    if (value.is_string()) {
+        bind.resource = value.get<std::string>();
+    } else {
+        ObjectReader reader(value, where, errors);
+        bind.resource = reader.text("resource");
+        bind.mip = reader.expression("mip", "");
+        bind.layer = reader.expression("layer", "");
+        if (bind.resource.empty()) reader.error("'resource' is missing");
+    }
+    static const std::regex previous(R"(previous\(\s*([^)\s]+)\s*\))");
+    std::smatch match;
+    if (std::regex_match(bind.resource, match, previous)) {
+        bind.previous = true;
+        bind.resource = std::string(match[1]);
+    }
+    return bind;
+}
+
+RepeatEntry read_repeat(const json& value, ObjectReader& node, ErrorList& errors) {
+    RepeatEntry repeat;
+    if (!value.is_object()) {
+        repeat.over = "count";
+        repeat.count = node.expression_of(value, "repeat", "1");
+        return repeat;
+    }
+    ObjectReader reader(value, node.where() + ".repeat", errors);
+    const std::vector<std::string> kinds = {"count", "mips", "layers", "lights", "views", "bounces"};
+    repeat.over = reader.text("over", "count");
+    if (std::find(kinds.begin(), kinds.end(), repeat.over) == kinds.end()) {
+        reader.error("nothing repeats over '" + repeat.over + "'" + did_you_mean(repeat.over, kinds));
+    }
+    if (repeat.over == "bounces") repeat.over = "count";
+    repeat.of = reader.text("of");
+    repeat.count = reader.expression("count", "1");
+    repeat.from = reader.expression("from", "0");
+    if ((repeat.over == "mips" || repeat.over == "layers") && repeat.of.empty()) {
+        reader.error("'of' is missing: the resource whose " + repeat.over + " are meant");
+    }
+    return repeat;
+}
+
+NodeEntry read_node(const json& value, const std::string& where, ErrorList& errors) {
+    ObjectReader reader(value, where, errors);
+    NodeEntry node;
+    node.type = reader.text("type");
+    node.id = reader.text("id", node.type);
+    node.shader = reader.text("shader");
+    node.enabled = reader.flag("enabled", true);
+    node.needs = reader.expression("needs", "");
+    std::vector<std::string> types;
+    for (const PassType& type : pass_types()) types.push_back(type.name);
+    if (node.type.empty()) reader.error("'type' is missing" + did_you_mean("", types));
+    else if (std::find(types.begin(), types.end(), node.type) == types.end()) {
+        reader.error("there is no pass type '" + node.type + "'" + did_you_mean(node.type, types));
+    }
+    static const std::regex id_form("[a-z][a-z0-9_]*");
+    if (!node.id.empty() && !std::regex_match(node.id, id_form)) {
+        reader.error("'" + node.id + "' is no pass id: it is lower case, digits and underscores");
+    }
+    if (node.type == "compute" && node.shader.empty()) reader.error("'shader' is missing: a .comp file under glsl/");
+    if (node.type != "compute" && !node.shader.empty()) reader.error("only passes of type compute take a 'shader'");
+    if (const json* params = reader.get("params")) {
+        if (params->is_object()) {
+            for (const auto& [name, parameter] : params->items()) node.params_json[name] = parameter.dump();
+        } else {
+            reader.error("'params' must be an object {name: value}");
+        }
+    }
+    if (const json* bind = reader.get("bind")) {
+        if (bind->is_object()) {
+            for (const auto& [slot, target] : bind->items()) {
+                node.bind[slot] = read_bind(target, where + ".bind." + slot, errors);
+            }
+        } else {
+            reader.error("'bind' must be an object {slot: resource}");
+        }
+    }
+    if (const json* dispatch = reader.get("dispatch")) {
+        if (dispatch->is_string()) node.dispatch.resource = dispatch->get<std::string>();
+        else if (dispatch->is_array() && !dispatch->empty() && dispatch->size() <= 3) {
+            for (const json& part : *dispatch) node.dispatch.threads.push_back(reader.expression_of(part, "dispatch", "1"));
+        } else if (dispatch->is_object() && dispatch->contains("indirect") && (*dispatch)["indirect"].is_string()) {
+            node.dispatch.indirect = (*dispatch)["indirect"].get<std::string>();
+        } else {
+            reader.error("'dispatch' is the name of a resource, [x, y, z] threads, or {\"indirect\": buffer}");
+        }
+    }
+    if (const json* repeat = reader.get("repeat")) node.repeat = read_repeat(*repeat, reader, errors);
+    return node;
+}
+
+} // namespace
+
+std::filesystem::path find_graph(const std::string& name) {
+    namespace fs = std::filesystem;
+    if (fs::is_regular_file(name)) return name;
+    fs::path in_assets = assets_folder() / "graphs" / (name + ".json");
+    if (fs::is_regular_file(in_assets)) return in_assets;
+    std::vector<std::string> names;
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(assets_folder() / "graphs", ignored)) {
+        if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+    }
+    std::sort(names.begin(), names.end());
+    throw Error("there is no graph '" + name + "'" + did_you_mean(name, names));
+}
+
+GraphFile load_graph_file(const std::filesystem::path& path) {
+    GraphFile file;
+    file.path = path;
+    file.name = path.stem().string();
+    std::string text = read_file(path);
+    json root;
+    try {
+        root = json::parse(text, nullptr, true, true);
+    } catch (const json::parse_error& error) {
+        size_t line = 1 + size_t(std::count(text.begin(), text.begin() + long(std::min(error.byte, text.size())), '\n'));
+        throw Error(fmt::format("{}:{}: not JSON: {}", path.string(), line, error.what()));
+    }
+    ErrorList errors;
+    {
+        ObjectReader reader(root, "graph", errors);
+        file.about = reader.text("about");
+        const json* version = reader.get("version");
+        if (!version || *version != 1) reader.error("'version' must be 1");
+        if (const json* parameters = reader.get("parameters"); parameters && parameters->is_object()) {
+            for (const auto& [name, value] : parameters->items()) file.parameters.push_back(read_parameter(name, value, errors));
+        } else if (parameters) {
+            reader.error("'parameters' must be an object");
+        }
+        if (const json* resources = reader.get("resources"); resources && resources->is_object()) {
+            for (const auto& [name, value] : resources->items()) {
+                file.resources.push_back(read_resource(name, value, file.set_fields[name], errors));
+            }
+        } else if (resources) {
+            reader.error("'resources' must be an object");
+        }
+        const json* passes = reader.get("passes");
+        if (passes && passes->is_array() && !passes->empty()) {
+            for (size_t i = 0; i < passes->size(); ++i) {
+                file.nodes.push_back(read_node((*passes)[i], fmt::format("passes[{}]", i), errors));
+            }
+        } else {
+            reader.error("'passes' must be a list of at least one pass");
+        }
+    }
+    std::set<std::string> ids;
+    for (const NodeEntry& node : file.nodes) {
+        if (!ids.insert(node.id).second) errors.add("two passes have the id '" + node.id + "'");
+        if (node.id == "graph") errors.add("a pass cannot have the id 'graph': that name is the graph's own parameters");
+    }
+    errors.throw_if_any(path.string());
+    return file;
+}
+
+} // namespace bounce

@@ -1,0 +1,71 @@
+#pragma once
+// A graph file (assets/graphs/*.json): an ordered list of passes with what differs from their defaults.
+//
+//   { "version": 1, "about": "…",
+//     "parameters": { "scale": {"default": 0.5, "range": [0.1, 1], "unit": "", "help": "…"} },
+//     "resources":  { "blur.half": {"kind": "texture_2d", "format": "rgba16f", "size": ["width*graph.scale", "height*graph.scale"],
+//                                   "mips": 1, "persistent": false, "clear": true, "neutral": [0,0,0,0]},
+//                     "list.nodes": {"kind": "buffer", "count": "width*height*8", "stride": 16} },
+//     "passes": [ { "id": "blur", "type": "compute", "shader": "blur.comp", "params": {"radius": 3},
+//                   "bind": {"blur.source": "out.direct", "blur.target": {"resource": "blur.half", "mip": "iteration"}},
+//                   "dispatch": "blur.half", "repeat": {"over": "mips", "of": "blur.half", "from": 1}, "enabled": true,
+//                   "needs": "emissive_materials + environment" } ] }
+
+#include "core/parameters.h"
+#include "graph/resource.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace bounce {
+
+/// Where a slot points: a whole resource, or one mip or layer of it (expressions that may use `iteration`).
+struct BindEntry {
+    std::string resource;
+    std::string mip, layer; ///< empty = all
+    bool previous = false;  ///< last frame's copy
+};
+
+struct RepeatEntry {
+    std::string over;     ///< "", "count", "mips", "layers", "lights", "views"
+    std::string of;       ///< resource for mips and layers
+    std::string count = "1";
+    std::string from = "0";
+};
+
+struct DispatchEntry {
+    std::string resource;             ///< one thread a texel of it
+    std::vector<std::string> threads; ///< or so many threads
+    std::string indirect;             ///< or group counts read from this buffer
+};
+
+struct NodeEntry {
+    std::string id, type, shader;
+    std::map<std::string, std::string> params_json; ///< value as JSON text
+    std::map<std::string, BindEntry> bind;
+    DispatchEntry dispatch;
+    RepeatEntry repeat;
+    std::string needs; ///< expression over scene facts; 0: the scene does not need the pass
+    bool enabled = true;
+};
+
+struct GraphFile {
+    std::string name; ///< file name without extension
+    std::filesystem::path path;
+    std::string about;
+    std::vector<ParameterInfo> parameters;
+    std::vector<ResourceDeclaration> resources; ///< only the fields that `set_fields` names were given
+    std::map<std::string, std::vector<std::string>> set_fields;
+    std::vector<NodeEntry> nodes;
+};
+
+/// Finds a graph by path or by name in the assets' graphs folder. Throws Error with the nearest.
+std::filesystem::path find_graph(const std::string& name);
+/// Throws Error that lists every error of the file.
+GraphFile load_graph_file(const std::filesystem::path& path);
+
+} // namespace bounce

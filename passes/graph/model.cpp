@@ -1,0 +1,201 @@
+#include "graph/model.h"
+
+#include "core/error.h"
+#include "core/paths.h"
+#include "core/text.h"
+#include "graph/expression.h"
+#include "graph/script_pass.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace bounce {
+
+Program* PassNode::program(const std::string& name) const {
+    for (const auto& program : programs) {
+        if (program->name() == name) return program.get();
+    }
+    return nullptr;
+}
+
+static std::unique_ptr<Pass> make_pass(const std::string& type) {
+    for (const PassType& known : pass_types()) {
+        if (known.name == type) return known.make();
+    }
+    throw Error("there is no pass type '" + type + "'");
+}
+
+GraphModel::GraphModel(GraphFile file) : file_(std::move(file)) {
+    ErrorList errors;
+    for (const ParameterInfo& info : file_.parameters) {
+        ParameterInfo declared = info;
+        declared.in_shader = true; // no C++ member behind it
+        graph_parameters_.declare_shader_parameter(declared);
+    }
+    for (const NodeEntry& entry : file_.nodes) {
+        auto node = std::make_unique<PassNode>();
+        node->entry = entry;
+        node->enabled = entry.enabled;
+        node->pass = make_pass(entry.type);
+        if (auto* script = dynamic_cast<ScriptPass*>(node->pass.get())) script->configure(entry);
+        node->description = std::make_unique<PassDescription>(node->parameters);
+        node->pass->describe(*node->description);
+        for (const ProgramEntry& program : node->description->programs) {
+            node->programs.push_back(std::make_unique<Program>(program.name, program.stages, glsl_folder()));
+        }
+        scan(*node);
+        apply_file_values(*node, errors);
+        nodes_.push_back(std::move(node));
+    }
+    errors.throw_if_any(file_.path.string());
+}
+
+PassNode* GraphModel::find_node(const std::string& id) const {
+    for (const auto& node : nodes_) {
+        if (node->id() == id) return node.get();
+    }
+    return nullptr;
+}
+
+Defines GraphModel::static_values(const PassNode& node) {
+    Defines values;
+    for (const Parameter& parameter : node.parameters.all()) {
+        if (parameter.info.is_static) values[parameter.info.name] = static_literal(parameter.info, parameter.value);
+    }
+    return values;
+}
+
+void GraphModel::scan(PassNode& node, const Defines& formats) {
+    std::vector<std::string> names;
+    for (const auto& program : node.programs) {
+        program->scan(formats, static_values(node));
+        for (const ParameterInfo& info : program->parameters()) {
+            node.parameters.declare_shader_parameter(info);
+            names.push_back(info.name);
+        }
+    }
+    // A file that cannot be read for the moment must not cost the values of its parameters.
+    bool broken = std::any_of(node.programs.begin(), node.programs.end(), [](auto& p) { return !p->errors().empty(); });
+    if (!broken) node.parameters.keep_shader_parameters(names);
+}
+
+/// A graph file's value may be an expression over the graph's own parameters: "=resolution / 2".
+static std::optional<std::string> as_expression(const std::string& json_text) {
+    if (!json_text.starts_with("\"=")) return std::nullopt;
+    return nlohmann::json::parse(json_text).get<std::string>().substr(1);
+}
+
+static std::optional<double> number_of(const Parameter* parameter) {
+    if (!parameter) return std::nullopt;
+    if (const auto* f = std::get_if<float>(&parameter->value)) return *f;
+    if (const auto* i = std::get_if<int>(&parameter->value)) return *i;
+    if (const auto* b = std::get_if<bool>(&parameter->value)) return *b ? 1 : 0;
+    return std::nullopt;
+}
+
+static std::optional<double> graph_number(const ParameterSet& parameters, std::string name) {
+    if (name.starts_with("graph.")) name = name.substr(6);
+    return number_of(parameters.find(name));
+}
+
+std::optional<double> GraphModel::number(const std::string& name) const {
+    if (auto found = graph_number(graph_parameters_, name)) return found;
+    size_t dot = name.find('.');
+    const PassNode* node = dot == std::string::npos ? nullptr : find_node(name.substr(0, dot));
+    return node ? number_of(node->parameters.find(name.substr(dot + 1))) : std::nullopt;
+}
+
+void GraphModel::apply_file_values(PassNode& node, ErrorList& errors) {
+    for (const auto& [name, text] : node.entry.params_json) {
+        try {
+            if (auto expression = as_expression(text)) {
+                double value = evaluate(*expression, [&](const std::string& n) { return graph_number(graph_parameters_, n); });
+                node.parameters.set_text(name, fmt::format("{}", value), ParameterOrigin::graph);
+            } else {
+                node.parameters.set_json(name, nlohmann::json::parse(text), ParameterOrigin::graph);
+            }
+        } catch (const Error& error) {
+            // A parameter of a shader that does not scan for the moment is not unknown, only out of sight.
+            bool broken = std::any_of(node.programs.begin(), node.programs.end(), [](auto& p) { return !p->errors().empty(); });
+            if (!broken || node.parameters.find(name)) errors.add(fmt::format("pass '{}': {}", node.id(), error.what()));
+        }
+    }
+}
+
+static std::pair<std::string, std::string> split_name(const std::string& name) {
+    size_t dot = name.find('.');
+    if (dot == std::string::npos) throw Error("'" + name + "' names no parameter: it is written pass.parameter");
+    return {name.substr(0, dot), name.substr(dot + 1)};
+}
+
+Parameter& GraphModel::parameter(const std::string& name) {
+    auto [id, parameter] = split_name(name);
+    ParameterSet* set = nullptr;
+    if (id == "graph") set = &graph_parameters_;
+    else if (PassNode* node = find_node(id)) set = &node->parameters;
+    Parameter* found = set ? set->find(parameter) : nullptr;
+    if (!found) throw Error(fmt::format("there is no parameter '{}' in graph '{}'{}", name, file_.name, did_you_mean(name, parameter_names())));
+    return *found;
+}
+
+void GraphModel::set(const std::string& name, const std::string& text, ParameterOrigin origin) {
+    parameter(name); // reports an unknown name with the nearest of the whole graph
+    auto [id, own] = split_name(name);
+    if (id != "graph") {
+        find_node(id)->parameters.set_text(own, text, origin);
+        return;
+    }
+    graph_parameters_.set_text(own, text, origin);
+    // Values that the file derives from the graph's parameters follow, unless a person has set them.
+    for (const auto& node : nodes_) {
+        for (const auto& [derived, json] : node->entry.params_json) {
+            Parameter* target = node->parameters.find(derived);
+            auto expression = as_expression(json);
+            if (!target || !expression || target->origin > ParameterOrigin::graph) continue;
+            double value = evaluate(*expression, [&](const std::string& n) { return graph_number(graph_parameters_, n); });
+            node->parameters.set_text(derived, fmt::format("{}", value), ParameterOrigin::graph);
+        }
+    }
+}
+
+std::vector<std::string> GraphModel::parameter_names() const {
+    std::vector<std::string> names;
+    for (const Parameter& p : graph_parameters_.all()) names.push_back("graph." + p.info.name);
+    for (const auto& node : nodes_) {
+        for (const Parameter& p : node->parameters.all()) names.push_back(node->id() + "." + p.info.name);
+    }
+    return names;
+}
+
+std::vector<std::filesystem::path> GraphModel::files() const {
+    std::vector<std::filesystem::path> files = {file_.path};
+    for (const auto& node : nodes_) {
+        for (const auto& program : node->programs) {
+            for (const auto& file : program->files()) {
+                if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+            }
+        }
+    }
+    return files;
+}
+
+void GraphModel::adopt(GraphModel& old) {
+    graph_parameters_.adopt(old.graph_parameters_);
+    for (const auto& node : nodes_) {
+        PassNode* before = old.find_node(node->id());
+        if (!before || before->entry.type != node->entry.type) continue;
+        node->parameters.adopt(before->parameters);
+        if (before->entry.enabled == node->entry.enabled) node->enabled = before->enabled;
+        for (auto& program : node->programs) {
+            for (auto& compiled : before->programs) {
+                if (compiled && compiled->name() == program->name() && compiled->stages() == program->stages()) {
+                    std::swap(program, compiled);
+                }
+            }
+        }
+        scan(*node);
+    }
+}
+
+} // namespace bounce

@@ -1,0 +1,63 @@
+#pragma once
+// A graph as loaded: its passes with their parameters and scanned shaders, and the planner. No OpenGL calls.
+
+#include "core/error.h"
+#include "graph/plan.h"
+
+#include <memory>
+
+namespace bounce {
+
+struct PassNode {
+    NodeEntry entry;
+    std::unique_ptr<Pass> pass;
+    ParameterSet parameters;
+    std::unique_ptr<PassDescription> description;
+    std::vector<std::unique_ptr<Program>> programs;
+    bool enabled = true;
+
+    const std::string& id() const { return entry.id; }
+    Program* program(const std::string& name) const;
+};
+
+class GraphModel {
+  public:
+    /// Makes the passes, reads their shaders' text, applies the file's values. Throws Error with all problems.
+    explicit GraphModel(GraphFile file);
+
+    const GraphFile& file() const { return file_; }
+    ParameterSet& graph_parameters() { return graph_parameters_; }
+    const ParameterSet& graph_parameters() const { return graph_parameters_; }
+    std::vector<std::unique_ptr<PassNode>>& nodes() { return nodes_; }
+    const std::vector<std::unique_ptr<PassNode>>& nodes() const { return nodes_; }
+    PassNode* find_node(const std::string& id) const;
+
+    /// "id.parameter" (graph.parameter for the graph's own) from text. Throws Error naming the nearest.
+    void set(const std::string& name, const std::string& text, ParameterOrigin origin);
+    Parameter& parameter(const std::string& name);
+    /// The value of a scalar parameter ("id.name", "graph.name" or the bare name of one of the graph's own).
+    std::optional<double> number(const std::string& name) const;
+    /// Every parameter as "id.name".
+    std::vector<std::string> parameter_names() const;
+
+    /// Reads a node's shader files again; its //! parameters and slots follow.
+    void scan(PassNode& node, const Defines& formats = {});
+    /// What its shaders' text asks to be compiled with: static parameters as GLSL.
+    static Defines static_values(const PassNode& node);
+
+    /// Throws Error with all problems (a slot without a source, a cycle, a bad size …).
+    Plan plan(const SceneFacts& facts, glm::ivec2 size) const;
+    /// Every file whose change matters: the graph file and the closures of all shaders.
+    std::vector<std::filesystem::path> files() const;
+    /// Takes over values that a person set, and compiled programs, from the model that this one replaces.
+    void adopt(GraphModel& old);
+
+  private:
+    void apply_file_values(PassNode& node, ErrorList& errors);
+
+    GraphFile file_;
+    ParameterSet graph_parameters_;
+    std::vector<std::unique_ptr<PassNode>> nodes_;
+};
+
+} // namespace bounce

@@ -1,0 +1,109 @@
+#pragma once
+// The pass interface: describe its parameters, declare what it reads and writes, execute.
+
+#include "core/parameters.h"
+#include "gpu/program.h"
+#include "graph/resource.h"
+#include "scene/scene.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace bounce {
+
+class PassContext;
+
+/// How a slot is used; barriers follow from it.
+enum class Usage { sampled, image, storage, colour, depth, indirect };
+
+struct SlotUse {
+    std::string slot; ///< name with the dot
+    Usage usage = Usage::sampled;
+    bool reads = true;
+    bool writes = false;
+    bool optional = false; ///< reads the neutral value when nothing produces it
+    std::string where;     ///< for errors: "surface/direct.comp:12" or the pass id
+};
+
+/// One program of a pass.
+struct ProgramEntry {
+    std::string name;
+    std::vector<std::filesystem::path> stages;
+};
+
+/// What a pass tells once, at its birth.
+class PassDescription {
+  public:
+    explicit PassDescription(ParameterSet& set) : parameters(set) {}
+    ParameterSet& parameters;
+    /// A program of this pass; its //! parameters join the pass's parameters.
+    void program(const std::string& name, std::vector<std::filesystem::path> stages) {
+        programs.push_back({name, std::move(stages)});
+    }
+    /// A uniform that execute() sets by PassContext::set (a draw's index, say).
+    void constant(const std::string& name) { constants.push_back(name); }
+
+    std::vector<ProgramEntry> programs;
+    std::vector<std::string> constants;
+};
+
+/// What a pass reads and writes, as a function of its parameters and the scene.
+class Declaration {
+  public:
+    Declaration(const SceneFacts& scene_facts, glm::ivec2 picture, std::function<std::vector<ShaderSlot>(const std::string&)> slots)
+        : facts(scene_facts), size(picture), slots_of_(std::move(slots)) {}
+
+    const SceneFacts& facts;
+    glm::ivec2 size; ///< the picture's
+
+    /// Makes a resource that this pass writes. (The graph file may change its format or size.)
+    ResourceDeclaration& creates(const std::string& name, ResourceKind kind, const std::string& format, Extent extent);
+    ResourceDeclaration& creates_buffer(const std::string& name, const std::string& count, int stride);
+    void reads(const std::string& slot, Usage usage) { uses_.push_back({slot, usage, true, false, false, ""}); }
+    void reads_optional(const std::string& slot, Usage usage) { uses_.push_back({slot, usage, true, false, true, ""}); }
+    void writes(const std::string& slot, Usage usage) { uses_.push_back({slot, usage, false, true, false, ""}); }
+    void reads_and_writes(const std::string& slot, Usage usage) { uses_.push_back({slot, usage, true, true, false, ""}); }
+    /// Every slot of a program's shaders, with the access that they declare.
+    void uses(const std::string& program);
+    /// Execute is called for iteration = from, …, to − 1, with barriers between.
+    void repeat(int from, int to) { repeat_from = from, repeat_to = to; }
+
+    const std::vector<SlotUse>& slot_uses() const { return uses_; }
+    const std::vector<ResourceDeclaration>& resources() const { return resources_; }
+    int repeat_from = 0, repeat_to = 1;
+
+  private:
+    std::function<std::vector<ShaderSlot>(const std::string&)> slots_of_;
+    std::vector<SlotUse> uses_;
+    std::vector<ResourceDeclaration> resources_;
+};
+
+class Pass {
+  public:
+    virtual ~Pass() = default;
+    virtual void describe(PassDescription& description) = 0;
+    /// A reason why this scene does not need the pass ("no emissive material"); empty when it does.
+    virtual std::string unneeded(const SceneFacts&) const { return {}; }
+    virtual void declare(Declaration& declaration) = 0;
+    virtual void execute(PassContext& context) = 0;
+    /// Told when history is gone (camera cut, resize, reload); what the pass kept across frames is void.
+    virtual void reset_history() {}
+};
+
+struct PassType {
+    std::string name;
+    std::string about;
+    std::function<std::unique_ptr<Pass>()> make;
+};
+/// Every registered pass type, by name.
+const std::vector<PassType>& pass_types();
+bool register_pass(PassType type);
+
+/// One line at the end of a pass's file makes it known to graph files.
+#define BOUNCE_REGISTER_PASS(name, Class, about)                                                                       \
+    static const bool bounce_registered_##Class =                                                                      \
+        ::bounce::register_pass({name, about, [] { return std::make_unique<Class>(); }});
+
+} // namespace bounce

@@ -1,0 +1,495 @@
+#include "graph/plan.h"
+
+#include "core/error.h"
+#include "core/text.h"
+#include "graph/expression.h"
+#include "graph/model.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+
+namespace bounce {
+
+const PlanSlot* PlanPass::find(const std::string& slot) const {
+    for (const PlanSlot& s : slots) {
+        if (s.use.slot == slot) return &s;
+    }
+    return nullptr;
+}
+
+uint64_t Plan::total_bytes() const {
+    uint64_t bytes = 0;
+    for (const PlanResource& resource : resources) bytes += resource.total_bytes();
+    return bytes;
+}
+
+const PlanResource* Plan::find_resource(const std::string& name) const {
+    for (const PlanResource& resource : resources) {
+        if (resource.name() == name) return &resource;
+    }
+    return nullptr;
+}
+
+std::vector<std::string> Plan::resource_names() const {
+    std::vector<std::string> names;
+    for (const PlanResource& resource : resources) names.push_back(resource.name());
+    return names;
+}
+
+namespace {
+
+bool is_builtin(const std::string& slot) {
+    return slot.starts_with("scene.") || slot.starts_with("material.");
+}
+
+/// A pass as declared, before anything is resolved.
+struct Declared {
+    const PassNode* node = nullptr;
+    std::vector<SlotUse> uses;
+    std::vector<BindEntry> targets; ///< per use: the resource it points at
+    int repeat_from = 0, repeat_to = 1;
+    std::string declined; ///< reason, or empty
+};
+
+class Planner {
+  public:
+    Planner(const GraphModel& model, const SceneFacts& facts, glm::ivec2 size) : model_(model), facts_(facts) {
+        plan_.size = size;
+    }
+
+    Plan run() {
+        take_file_resources();
+        for (const auto& node : model_.nodes()) declare(*node);
+        check_sources();
+        errors_.throw_if_any("graph '" + model_.file().name + "'");
+        decline();
+        std::vector<int> order = sort();
+        for (const ResourceDeclaration& resource : resources_) size_of(resource.name);
+        for (Declared& pass : passes_) resolve_repeat(pass);
+        errors_.throw_if_any("graph '" + model_.file().name + "'");
+        fill(order);
+        place_barriers();
+        return std::move(plan_);
+    }
+
+  private:
+    // --- declaring -------------------------------------------------------------------------------------------------
+    void take_file_resources() {
+        for (const ResourceDeclaration& resource : model_.file().resources) resources_.push_back(resource);
+    }
+
+    ResourceDeclaration* find(const std::string& name) {
+        for (ResourceDeclaration& resource : resources_) {
+            if (resource.name == name) return &resource;
+        }
+        return nullptr;
+    }
+
+    static BindEntry target_of(const PassNode& node, const std::string& slot) {
+        auto bound = node.entry.bind.find(slot);
+        return bound != node.entry.bind.end() ? bound->second : BindEntry{slot, "", "", false};
+    }
+
+    void declare(const PassNode& node) {
+        auto slots_of = [&](const std::string& name) {
+            Program* program = node.program(name);
+            if (!program) throw Error("pass '" + node.id() + "' has no program '" + name + "'");
+            return program->slots();
+        };
+        Declaration declaration(facts_, plan_.size, slots_of);
+        Declared pass;
+        pass.node = &node;
+        try {
+            pass.declined = node.enabled ? node.pass->unneeded(facts_) : "switched off";
+            if (pass.declined.empty() && !node.entry.needs.empty() && evaluate(node.entry.needs, [&](auto& n) { return fact(n); }) == 0) {
+                pass.declined = "the scene has no " + node.entry.needs;
+            }
+            node.pass->declare(declaration);
+        } catch (const Error& error) {
+            errors_.add("pass '" + node.id() + "': " + error.what());
+        }
+        pass.uses = declaration.slot_uses();
+        pass.repeat_from = declaration.repeat_from;
+        pass.repeat_to = declaration.repeat_to;
+        for (SlotUse& use : pass.uses) {
+            if (use.where.empty()) use.where = "pass '" + node.id() + "'";
+            pass.targets.push_back(target_of(node, use.slot));
+        }
+        for (const auto& [slot, bind] : node.entry.bind) {
+            bool known = std::any_of(pass.uses.begin(), pass.uses.end(), [&](auto& u) { return u.slot == slot; });
+            if (known) continue;
+            std::vector<std::string> names;
+            for (const SlotUse& use : pass.uses) names.push_back(use.slot);
+            if (!broken(node)) errors_.add(fmt::format("pass '{}' has no slot '{}'{}", node.id(), slot, did_you_mean(slot, names)));
+        }
+        for (const ResourceDeclaration& made : declaration.resources()) take_resource(node, made);
+        passes_.push_back(std::move(pass));
+    }
+
+    /// Whether the node's shaders cannot be read for the moment, so that their slots are not known.
+    static bool broken(const PassNode& node) {
+        return std::any_of(node.programs.begin(), node.programs.end(), [](auto& p) { return !p->errors().empty(); });
+    }
+
+    void take_resource(const PassNode& node, ResourceDeclaration made) {
+        bool rebound = node.entry.bind.contains(made.name);
+        made.name = target_of(node, made.name).resource;
+        made.declared_by = node.id();
+        ResourceDeclaration* known = find(made.name);
+        if (!known) {
+            resources_.push_back(std::move(made));
+        } else if (known->declared_by == "graph file") {
+            // The file changes what it names and leaves the rest as the pass has it.
+            const auto& fields = model_.file().set_fields.at(made.name);
+            auto given = [&](const char* field) { return std::find(fields.begin(), fields.end(), field) != fields.end(); };
+            ResourceDeclaration merged = made;
+            if (given("kind")) merged.kind = known->kind;
+            if (given("format")) merged.format = known->format;
+            if (given("size")) merged.size = known->size;
+            if (given("mips")) merged.mips = known->mips;
+            if (given("count")) merged.count = known->count;
+            if (given("stride")) merged.stride = known->stride;
+            if (given("persistent")) merged.persistent = known->persistent;
+            if (given("clear")) merged.overwritten = known->overwritten;
+            if (given("neutral")) merged.neutral = known->neutral;
+            *known = merged;
+        } else if (!rebound && known->declared_by != node.id()) {
+            errors_.add(fmt::format("passes '{}' and '{}' both make '{}'; bind one of them to another name",
+                                    known->declared_by, node.id(), made.name));
+        }
+    }
+
+    // --- checking --------------------------------------------------------------------------------------------------
+    bool has_writer(const std::string& resource) const {
+        for (const Declared& pass : passes_) {
+            for (size_t i = 0; i < pass.uses.size(); ++i) {
+                if (pass.uses[i].writes && pass.targets[i].resource == resource) return true;
+            }
+        }
+        return false;
+    }
+
+    void check_sources() {
+        std::vector<std::string> names;
+        for (const ResourceDeclaration& resource : resources_) names.push_back(resource.name);
+        for (const Declared& pass : passes_) {
+            for (size_t i = 0; i < pass.uses.size(); ++i) {
+                const SlotUse& use = pass.uses[i];
+                const std::string& target = pass.targets[i].resource;
+                if (is_builtin(use.slot) || use.optional) continue;
+                std::string slot = use.slot == target ? "'" + target + "'" : fmt::format("'{}' (slot {})", target, use.slot);
+                if (!find(target)) {
+                    errors_.add(fmt::format("pass '{}' ({}) {} {}, which nothing declares{}", pass.node->id(), use.where,
+                                            use.writes ? "writes" : "reads", slot, did_you_mean(target, names)));
+                } else if (use.reads && !use.writes && !pass.targets[i].previous && !has_writer(target)) {
+                    errors_.add(fmt::format("pass '{}' ({}) reads {}, which nothing writes", pass.node->id(), use.where, slot));
+                } else if (bool buffer = find(target)->kind == ResourceKind::buffer;
+                           buffer != (use.usage == Usage::storage || use.usage == Usage::indirect)) {
+                    errors_.add(fmt::format("pass '{}' ({}) uses {} as a {}, but it is a {}", pass.node->id(), use.where, slot,
+                                            buffer ? "texture" : "buffer", to_string(find(target)->kind)));
+                }
+            }
+        }
+    }
+
+    // --- declining -------------------------------------------------------------------------------------------------
+    bool all_writers_declined(const std::string& resource) const {
+        bool any = false;
+        for (const Declared& pass : passes_) {
+            for (size_t i = 0; i < pass.uses.size(); ++i) {
+                if (!pass.uses[i].writes || pass.targets[i].resource != resource) continue;
+                if (pass.declined.empty()) return false;
+                any = true;
+            }
+        }
+        return any;
+    }
+
+    static bool makes_the_picture(const Declared& pass) {
+        return std::any_of(pass.targets.begin(), pass.targets.end(),
+                           [](auto& t) { return t.resource == "out.radiance" || t.resource == "out.display"; });
+    }
+
+    /// Everything that this pass reads from the graph comes from declined passes.
+    bool starved(const Declared& pass) const {
+        bool any = false;
+        for (size_t i = 0; i < pass.uses.size(); ++i) {
+            const SlotUse& use = pass.uses[i];
+            if (!use.reads || use.writes || is_builtin(use.slot) || pass.targets[i].previous) continue;
+            if (use.optional && !has_writer(pass.targets[i].resource)) continue;
+            if (!all_writers_declined(pass.targets[i].resource)) return false;
+            any = true;
+        }
+        return any;
+    }
+
+    /// It had readers, all of them declined, and nothing of it is an output.
+    bool unread(const Declared& pass) const {
+        bool had_readers = false;
+        for (size_t i = 0; i < pass.uses.size(); ++i) {
+            if (!pass.uses[i].writes) continue;
+            const std::string& resource = pass.targets[i].resource;
+            if (resource.starts_with("out.")) return false;
+            for (const Declared& other : passes_) {
+                for (size_t j = 0; j < other.uses.size(); ++j) {
+                    if (&other == &pass || !other.uses[j].reads || other.targets[j].resource != resource) continue;
+                    if (other.declined.empty()) return false;
+                    had_readers = true;
+                }
+            }
+        }
+        return had_readers;
+    }
+
+    void decline() {
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (Declared& pass : passes_) {
+                if (!pass.declined.empty() || makes_the_picture(pass)) continue;
+                if (starved(pass)) pass.declined = "all that it reads comes from declined passes";
+                else if (unread(pass)) pass.declined = "only declined passes read what it makes";
+                changed = changed || !pass.declined.empty();
+            }
+        }
+        for (const Declared& pass : passes_) {
+            if (!pass.declined.empty()) plan_.declined.push_back({pass.node->id(), pass.declined});
+        }
+    }
+
+    // --- ordering --------------------------------------------------------------------------------------------------
+    /// A reader comes after every writer listed before it, or, when none is, after all writers; writers keep their order.
+    std::vector<int> sort() {
+        int n = int(passes_.size());
+        std::vector<std::set<int>> after(n); // after[i]: passes that must come before i
+        for (const ResourceDeclaration& resource : resources_) {
+            std::vector<int> writers, readers;
+            for (int p = 0; p < n; ++p) {
+                if (!passes_[p].declined.empty()) continue;
+                bool writes = false, reads = false;
+                for (size_t i = 0; i < passes_[p].uses.size(); ++i) {
+                    if (passes_[p].targets[i].resource != resource.name) continue;
+                    writes = writes || passes_[p].uses[i].writes;
+                    reads = reads || (passes_[p].uses[i].reads && !passes_[p].targets[i].previous);
+                }
+                if (writes) writers.push_back(p);
+                else if (reads) readers.push_back(p);
+            }
+            for (size_t i = 1; i < writers.size(); ++i) after[writers[i]].insert(writers[i - 1]);
+            for (int reader : readers) {
+                bool any_before = std::any_of(writers.begin(), writers.end(), [&](int w) { return w < reader; });
+                for (int writer : writers) {
+                    if (writer < reader || !any_before) after[reader].insert(writer);
+                    else after[writer].insert(reader);
+                }
+            }
+        }
+        std::vector<int> order;
+        std::vector<bool> done(n, false);
+        size_t wanted = size_t(std::count_if(passes_.begin(), passes_.end(), [](auto& p) { return p.declined.empty(); }));
+        while (order.size() < wanted) {
+            int next = -1;
+            for (int p = 0; p < n && next < 0; ++p) {
+                bool ready = !done[p] && passes_[p].declined.empty() &&
+                             std::all_of(after[p].begin(), after[p].end(), [&](int before) { return done[before]; });
+                if (ready) next = p;
+            }
+            if (next < 0) {
+                std::vector<std::string> names;
+                for (int p = 0; p < n; ++p) {
+                    if (!done[p] && passes_[p].declined.empty()) names.push_back(passes_[p].node->id());
+                }
+                errors_.add("these passes wait for each other in a circle: " + join(names, ", ") +
+                            " (read last frame's copy with previous(name) to break it)");
+                errors_.throw_if_any("graph '" + model_.file().name + "'");
+            }
+            done[next] = true;
+            order.push_back(next);
+        }
+        return order;
+    }
+
+    // --- sizes -----------------------------------------------------------------------------------------------------
+    /// What a scene may hold, for `needs`.
+    std::optional<double> fact(const std::string& name) const {
+        const std::pair<const char*, double> facts[] = {
+            {"lights", double(facts_.lights())},
+            {"point_lights", double(facts_.point_lights)},
+            {"spot_lights", double(facts_.spot_lights)},
+            {"directional_lights", double(facts_.directional_lights)},
+            {"emissive_materials", double(facts_.emissive_materials)},
+            {"glossy_materials", double(facts_.glossy_materials)},
+            {"alpha_tested_materials", double(facts_.alpha_tested_materials)},
+            {"dynamic_instances", double(facts_.dynamic_instances)},
+            {"animated_lights", facts_.animated_lights ? 1.0 : 0.0},
+            {"environment", facts_.environment ? 1.0 : 0.0},
+        };
+        for (const auto& [known, value] : facts) {
+            if (name == known) return value;
+        }
+        return model_.number(name);
+    }
+
+    std::optional<double> number(const std::string& name) {
+        if (name == "width") return plan_.size.x;
+        if (name == "height") return plan_.size.y;
+        if (name == "lights") return double(facts_.lights());
+        if (name == "shadow_views") return double(facts_.spot_lights + facts_.directional_lights + 6 * facts_.point_lights);
+        if (auto found = model_.number(name)) return found;
+        size_t last = name.rfind('.');
+        if (last == std::string::npos) return std::nullopt;
+        std::string resource = name.substr(0, last), side = name.substr(last + 1);
+        if (!find(resource)) return std::nullopt;
+        const PlanResource& sized = size_of(resource);
+        if (side == "width") return sized.texture.size.x;
+        if (side == "height") return sized.texture.size.y;
+        if (side == "depth") return sized.texture.size.z;
+        if (side == "mips") return sized.texture.mips;
+        if (side == "count") return double(sized.count);
+        return std::nullopt;
+    }
+
+    const PlanResource& size_of(const std::string& name) {
+        if (auto known = sized_.find(name); known != sized_.end()) return known->second;
+        ResourceDeclaration& declaration = *find(name);
+        PlanResource out;
+        out.declaration = declaration;
+        if (!sizing_.insert(name).second) throw Error("the size of '" + name + "' depends on itself");
+        NameLookup lookup = [&](const std::string& n) { return number(n); };
+        try {
+            if (declaration.kind == ResourceKind::buffer) {
+                out.count = uint64_t(evaluate_integer(declaration.count, lookup, 0));
+                out.bytes = out.count * uint64_t(declaration.stride);
+            } else {
+                TextureDesc& desc = out.texture;
+                desc.kind = declaration.kind == ResourceKind::texture_2d         ? TextureKind::texture_2d
+                            : declaration.kind == ResourceKind::texture_2d_array ? TextureKind::texture_2d_array
+                                                                                 : TextureKind::texture_3d;
+                desc.format = format_by_name(declaration.format).internal;
+                for (int i = 0; i < 3; ++i) desc.size[i] = evaluate_integer(declaration.size.parts[size_t(i)], lookup, 1);
+                int full = full_mip_count(desc);
+                desc.mips = declaration.mips == "full" ? full : std::min(full, evaluate_integer(declaration.mips, lookup, 1));
+                out.bytes = texture_bytes(desc);
+            }
+        } catch (const Error& error) {
+            errors_.add(fmt::format("resource '{}' (declared by {}): {}", name, declaration.declared_by, error.what()));
+        }
+        sizing_.erase(name);
+        return sized_[name] = out;
+    }
+
+    void resolve_repeat(Declared& pass) {
+        const RepeatEntry& repeat = pass.node->entry.repeat;
+        if (repeat.over.empty()) return;
+        NameLookup lookup = [&](const std::string& n) { return number(n); };
+        try {
+            pass.repeat_from = evaluate_integer(repeat.from, lookup, 0);
+            if (repeat.over == "count") pass.repeat_to = evaluate_integer(repeat.count, lookup, 0);
+            else if (repeat.over == "lights") pass.repeat_to = int(facts_.lights());
+            else if (repeat.over == "views") pass.repeat_to = int(*number("shadow_views"));
+            else if (!find(repeat.of)) throw Error("repeats over '" + repeat.of + "', which nothing declares");
+            else pass.repeat_to = repeat.over == "mips" ? size_of(repeat.of).texture.mips : size_of(repeat.of).texture.size.z;
+        } catch (const Error& error) {
+            errors_.add("pass '" + pass.node->id() + "': " + error.what());
+        }
+    }
+
+    // --- the result ------------------------------------------------------------------------------------------------
+    void fill(const std::vector<int>& order) {
+        std::map<std::string, int> index;
+        for (const ResourceDeclaration& resource : resources_) {
+            bool used = false;
+            for (int p : order) {
+                for (const BindEntry& target : passes_[p].targets) used = used || target.resource == resource.name;
+            }
+            if (!used || all_writers_declined(resource.name)) continue;
+            index[resource.name] = int(plan_.resources.size());
+            plan_.resources.push_back(sized_[resource.name]);
+        }
+        std::set<int> written;
+        for (int p : order) {
+            const Declared& declared = passes_[p];
+            PlanPass pass;
+            for (size_t n = 0; n < model_.nodes().size(); ++n) {
+                if (model_.nodes()[n].get() == declared.node) pass.node = int(n);
+            }
+            pass.id = declared.node->id();
+            pass.repeat_from = declared.repeat_from;
+            pass.repeat_to = declared.repeat_to;
+            for (size_t i = 0; i < declared.uses.size(); ++i) {
+                PlanSlot slot{declared.uses[i], -1, is_builtin(declared.uses[i].slot), glm::vec4(0), declared.targets[i]};
+                if (const ResourceDeclaration* known = find(slot.bind.resource)) slot.neutral = known->neutral;
+                auto found = index.find(slot.bind.resource);
+                if (!slot.builtin && found != index.end()) {
+                    slot.resource = found->second;
+                    PlanResource& resource = plan_.resources[size_t(slot.resource)];
+                    if (slot.bind.previous) resource.needs_previous = true;
+                    auto add = [&](std::vector<std::string>& ids) {
+                        if (std::find(ids.begin(), ids.end(), pass.id) == ids.end()) ids.push_back(pass.id);
+                    };
+                    if (slot.use.writes) add(resource.writers);
+                    if (slot.use.reads) add(resource.readers);
+                    if (slot.use.writes && written.insert(slot.resource).second && !resource.declaration.persistent &&
+                        !resource.declaration.overwritten) {
+                        pass.clears.push_back(slot.resource);
+                    }
+                }
+                pass.slots.push_back(std::move(slot));
+            }
+            plan_.passes.push_back(std::move(pass));
+        }
+    }
+
+    static GLbitfield barrier_for(Usage usage) {
+        switch (usage) {
+        case Usage::sampled: return GL_TEXTURE_FETCH_BARRIER_BIT;
+        case Usage::image: return GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
+        case Usage::storage: return GL_SHADER_STORAGE_BARRIER_BIT;
+        case Usage::colour:
+        case Usage::depth: return GL_FRAMEBUFFER_BARRIER_BIT;
+        case Usage::indirect: return GL_COMMAND_BARRIER_BIT;
+        }
+        return 0;
+    }
+
+    /// Shader stores (image, storage) are incoherent: whoever uses the resource next needs a barrier for its own way of
+    /// access. Framebuffer writes and clears are ordered by OpenGL itself.
+    void place_barriers() {
+        std::map<int, GLbitfield> pending; // resource → ways of access that still await a barrier
+        const GLbitfield all = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                               GL_SHADER_STORAGE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT | GL_COMMAND_BARRIER_BIT;
+        for (PlanPass& pass : plan_.passes) {
+            for (const PlanSlot& slot : pass.slots) {
+                if (slot.resource < 0) continue;
+                pass.barriers |= pending[slot.resource] & barrier_for(slot.use.usage);
+            }
+            for (auto& [resource, bits] : pending) bits &= ~pass.barriers;
+            for (const PlanSlot& slot : pass.slots) {
+                bool incoherent = slot.use.writes && (slot.use.usage == Usage::image || slot.use.usage == Usage::storage);
+                if (slot.resource < 0 || !incoherent) continue;
+                pending[slot.resource] = all;
+                for (const PlanSlot& other : pass.slots) {
+                    if (other.resource == slot.resource) pass.step_barriers |= barrier_for(other.use.usage);
+                }
+            }
+        }
+    }
+
+    const GraphModel& model_;
+    const SceneFacts& facts_;
+    Plan plan_;
+    ErrorList errors_;
+    std::vector<ResourceDeclaration> resources_;
+    std::vector<Declared> passes_;
+    std::map<std::string, PlanResource> sized_;
+    std::set<std::string> sizing_;
+};
+
+} // namespace
+
+Plan GraphModel::plan(const SceneFacts& facts, glm::ivec2 size) const {
+    return Planner(*this, facts, size).run();
+}
+
+} // namespace bounce

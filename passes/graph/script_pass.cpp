@@ -1,0 +1,55 @@
+#include "graph/script_pass.h"
+
+#include "core/error.h"
+#include "graph/context.h"
+#include "graph/expression.h"
+
+#include <fmt/format.h>
+
+namespace bounce {
+
+void ScriptPass::describe(PassDescription& description) {
+    description.program("main", {entry_.shader});
+}
+
+void ScriptPass::declare(Declaration& declaration) {
+    declaration.uses("main");
+    if (!entry_.dispatch.indirect.empty()) declaration.reads(entry_.dispatch.indirect, Usage::indirect);
+}
+
+void ScriptPass::execute(PassContext& context) {
+    const DispatchEntry& dispatch = entry_.dispatch;
+    if (!dispatch.indirect.empty()) {
+        context.dispatch_indirect("main", dispatch.indirect);
+        return;
+    }
+    glm::ivec3 threads(1);
+    if (!dispatch.threads.empty()) {
+        auto lookup = [&](const std::string& name) -> std::optional<double> {
+            if (name == "width") return context.frame().resolution.x;
+            if (name == "height") return context.frame().resolution.y;
+            if (name == "iteration") return context.iteration;
+            if (name == "lights") return context.frame().light_count;
+            if (name == "triangles") return double(context.facts().triangles);
+            return context.number(name);
+        };
+        for (size_t i = 0; i < dispatch.threads.size(); ++i) threads[int(i)] = evaluate_integer(dispatch.threads[i], lookup, 0);
+    } else {
+        // One thread a texel of the named resource, or of the first texture that the shader writes.
+        const PlanSlot* over = nullptr;
+        for (const PlanSlot& slot : context.plan().slots) {
+            bool named = slot.bind.resource == dispatch.resource || slot.use.slot == dispatch.resource;
+            bool texture = slot.use.usage != Usage::storage && slot.use.usage != Usage::indirect;
+            if (!over && texture && slot.resource >= 0 && (dispatch.resource.empty() ? slot.use.writes : named)) over = &slot;
+            // Prefer the slot that is written: it may be bound to another mip than the one that is read.
+            if (over && named && texture && slot.use.writes && !over->use.writes) over = &slot;
+        }
+        if (!over) throw Error(fmt::format("pass '{}' has nothing to dispatch over: give \"dispatch\": [x, y, z]", entry_.id));
+        threads = context.size(over->use.slot);
+    }
+    context.dispatch("main", threads);
+}
+
+BOUNCE_REGISTER_PASS("compute", ScriptPass, "a compute shader: a .comp file, its resources and a dispatch size; no C++")
+
+} // namespace bounce

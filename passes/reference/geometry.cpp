@@ -1,0 +1,192 @@
+#include "reference/geometry.h"
+
+#include "scene/brdf.h"
+
+#include <cmath>
+
+namespace bounce {
+
+static glm::vec2 uv_of(const Vertex& v, int set) {
+    return set == 0 ? glm::vec2(v.u0, v.v0) : glm::vec2(v.u1, v.v1);
+}
+
+static glm::vec4 colour_of(const Vertex& v) {
+    return {glm::unpackUnorm2x16(v.colour_rg), glm::unpackUnorm2x16(v.colour_ba)};
+}
+
+template <class T>
+static T mix_corners(const T& a, const T& b, const T& c, float u, float v) {
+    return a * (1 - u - v) + b * u + c * v;
+}
+
+static glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
+    float length_squared = glm::dot(v, v);
+    return length_squared > 1e-30f && length_squared < 1e30f ? v / std::sqrt(length_squared) : otherwise;
+}
+
+glm::vec3 triangle_cross(const TraceGeometry::Geometry& geometry, uint32_t triangle) {
+    const uint32_t* i = &geometry.indices[size_t(triangle) * 3];
+    const glm::vec3& a = geometry.vertices[i[0]].position;
+    return glm::cross(geometry.vertices[i[1]].position - a, geometry.vertices[i[2]].position - a);
+}
+
+float self_intersection_epsilon(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    glm::vec3 most = glm::max(glm::max(glm::abs(a), glm::abs(b)), glm::abs(c));
+    return 4.0e-6f * std::max(most.x, std::max(most.y, most.z));
+}
+
+TraceGeometry::Corners TraceGeometry::corners(const Geometry& geometry, uint32_t triangle) const {
+    const uint32_t* i = &geometry.indices[size_t(triangle) * 3];
+    return {&geometry.vertices[i[0]], &geometry.vertices[i[1]], &geometry.vertices[i[2]]};
+}
+
+Hit TraceGeometry::intersect(const glm::vec3& origin, const glm::vec3& direction, float length) const {
+    RTCRayHit ray;
+    ray.ray.org_x = origin.x;
+    ray.ray.org_y = origin.y;
+    ray.ray.org_z = origin.z;
+    ray.ray.tnear = 0;
+    ray.ray.dir_x = direction.x;
+    ray.ray.dir_y = direction.y;
+    ray.ray.dir_z = direction.z;
+    ray.ray.time = 0;
+    ray.ray.tfar = length;
+    ray.ray.mask = ~0u;
+    ray.ray.id = 0;
+    ray.ray.flags = 0;
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene_, &context, &ray);
+    return {ray.hit.geomID, ray.hit.primID, ray.hit.u, ray.hit.v, ray.ray.tfar};
+}
+
+bool TraceGeometry::occluded(const glm::vec3& origin, const glm::vec3& direction, float length) const {
+    RTCRay ray;
+    ray.org_x = origin.x;
+    ray.org_y = origin.y;
+    ray.org_z = origin.z;
+    ray.tnear = 0;
+    ray.dir_x = direction.x;
+    ray.dir_y = direction.y;
+    ray.dir_z = direction.z;
+    ray.time = 0;
+    ray.tfar = length;
+    ray.mask = ~0u;
+    ray.id = 0;
+    ray.flags = 0;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene_, &context, &ray);
+    return ray.tfar < 0;
+}
+
+bool TraceGeometry::opaque(const Geometry& geometry, uint32_t triangle, float u, float v) const {
+    const TraceMaterial& material = materials_[size_t(geometry.material)];
+    if (!material.alpha_mask) return true;
+    const Corners t = corners(geometry, triangle);
+    float alpha = material.base_colour.a;
+    if (const auto& use = material.base_colour_texture; use.texture) {
+        const int set = use.transform.uv_set;
+        alpha *= use.texture->sample_alpha(
+            use.transform.apply(mix_corners(uv_of(*t.a, set), uv_of(*t.b, set), uv_of(*t.c, set), u, v)));
+    }
+    if (geometry.vertex_colours) alpha *= mix_corners(colour_of(*t.a), colour_of(*t.b), colour_of(*t.c), u, v).a;
+    return alpha >= material.alpha_cutoff;
+}
+
+void TraceGeometry::filter(const RTCFilterFunctionNArguments* arguments) {
+    const auto* data = static_cast<const FilterData*>(arguments->geometryUserPtr);
+    for (unsigned i = 0; i < arguments->N; ++i) {
+        if (arguments->valid[i] != -1) continue;
+        const uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, i);
+        const float u = RTCHitN_u(arguments->hit, arguments->N, i), v = RTCHitN_v(arguments->hit, arguments->N, i);
+        if (!data->owner->opaque(*data->geometry, triangle, u, v)) arguments->valid[i] = 0;
+    }
+}
+
+glm::vec3 TraceGeometry::emission(const Geometry& geometry, uint32_t triangle, float u, float v) const {
+    const TraceMaterial& material = materials_[size_t(geometry.material)];
+    if (!material.emissive || !opaque(geometry, triangle, u, v)) return glm::vec3(0);
+    const auto& use = material.emission_texture;
+    if (!use.texture) return material.emission;
+    const Corners t = corners(geometry, triangle);
+    const int set = use.transform.uv_set;
+    glm::vec2 uv = mix_corners(uv_of(*t.a, set), uv_of(*t.b, set), uv_of(*t.c, set), u, v);
+    return material.emission * glm::vec3(use.texture->sample(use.transform.apply(uv)));
+}
+
+glm::vec3 TraceGeometry::largest_emission(const Geometry& geometry) const {
+    const TraceMaterial& material = materials_[size_t(geometry.material)];
+    if (!material.emission_texture.texture) return material.emission;
+    return material.emission * glm::vec3(material.emission_texture.texture->largest());
+}
+
+glm::vec3 TraceGeometry::mean_emission(const Geometry& geometry, uint32_t triangle) const {
+    const TraceMaterial& material = materials_[size_t(geometry.material)];
+    if (!material.emission_texture.texture && !material.alpha_mask) return material.emission;
+    // A fixed grid of points; large textures on large triangles are only estimated, which costs noise, not truth.
+    constexpr int k_steps = 8;
+    glm::vec3 sum(0);
+    for (int i = 0; i < k_steps; ++i) {
+        for (int j = 0; j < k_steps; ++j) {
+            float root = std::sqrt((float(i) + 0.5f) / k_steps), along = (float(j) + 0.5f) / k_steps;
+            sum += emission(geometry, triangle, root * (1 - along), root * along);
+        }
+    }
+    return sum / float(k_steps * k_steps);
+}
+
+Surface TraceGeometry::surface(const Hit& hit, const glm::vec3& ray_direction) const {
+    const Geometry& geometry = geometries_[hit.geometry];
+    const TraceMaterial& material = materials_[size_t(geometry.material)];
+    const Corners t = corners(geometry, hit.triangle);
+    const float u = hit.u, v = hit.v;
+
+    Surface s;
+    const glm::vec3 edge1 = t.b->position - t.a->position, edge2 = t.c->position - t.a->position;
+    s.position = t.a->position + u * edge1 + v * edge2;
+    s.epsilon = self_intersection_epsilon(t.a->position, t.b->position, t.c->position);
+    s.geometric = unit_or(glm::cross(edge1, edge2), -ray_direction);
+    if (glm::dot(s.geometric, ray_direction) > 0) s.geometric = -s.geometric;
+    s.material = geometry.material;
+
+    glm::vec3 normal = unit_or(mix_corners(t.a->normal, t.b->normal, t.c->normal, u, v), s.geometric);
+    const glm::vec2 uv[2] = {mix_corners(uv_of(*t.a, 0), uv_of(*t.b, 0), uv_of(*t.c, 0), u, v),
+                             mix_corners(uv_of(*t.a, 1), uv_of(*t.b, 1), uv_of(*t.c, 1), u, v)};
+    if (const auto& use = material.normal_texture; use.texture) {
+        const glm::vec4 texel = use.texture->sample(use.transform.apply(uv[use.transform.uv_set]));
+        const float x = (2 * texel.x - 1) * material.normal_scale, y = (2 * texel.y - 1) * material.normal_scale;
+        const glm::vec3 tangent = unit_or(
+            mix_corners(glm::vec3(t.a->tangent), glm::vec3(t.b->tangent), glm::vec3(t.c->tangent), u, v), glm::vec3(0));
+        // A mirroring transform turns the frame's handedness over.
+        const float handedness = geometry.mirrored ? -t.a->tangent.w : t.a->tangent.w;
+        const glm::vec3 bitangent = handedness * glm::cross(normal, tangent);
+        normal = unit_or(x * tangent + y * bitangent + (2 * texel.z - 1) * normal, normal);
+    }
+    s.shading = glm::dot(normal, s.geometric) < 0 ? -normal : normal;
+
+    glm::vec3 colour = material.base_colour;
+    if (const auto& use = material.base_colour_texture; use.texture) {
+        colour *= glm::vec3(use.texture->sample(use.transform.apply(uv[use.transform.uv_set])));
+    }
+    if (geometry.vertex_colours) {
+        colour *= glm::vec3(mix_corners(colour_of(*t.a), colour_of(*t.b), colour_of(*t.c), u, v));
+    }
+    s.base_colour = colour;
+    s.metallic = material.metallic;
+    s.roughness = material.roughness;
+    if (const auto& use = material.metallic_roughness_texture; use.texture) {
+        const glm::vec4 texel = use.texture->sample(use.transform.apply(uv[use.transform.uv_set]));
+        s.metallic *= texel.b;
+        s.roughness *= texel.g;
+    }
+    s.emission = material.emission;
+    if (const auto& use = material.emission_texture; use.texture && material.emissive) {
+        s.emission *= glm::vec3(use.texture->sample(use.transform.apply(uv[use.transform.uv_set])));
+    }
+    return s;
+}
+
+} // namespace bounce

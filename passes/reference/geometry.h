@@ -1,0 +1,121 @@
+#pragma once
+// The shot's triangles for ray tracing: world-space copies in an Embree 3 scene, and what a ray sees where it hits.
+
+#include "reference/texture.h"
+#include "scene/shot.h"
+
+#include <embree3/rtcore.h>
+#include <memory>
+
+namespace bounce {
+
+/// What a ray hit.
+struct Hit {
+    uint32_t geometry = RTC_INVALID_GEOMETRY_ID; ///< index of the instance
+    uint32_t triangle = 0;
+    float u = 0, v = 0;
+    float distance = 0;
+    bool valid() const { return geometry != RTC_INVALID_GEOMETRY_ID; }
+};
+
+/// The surface at a hit, seen from the ray's side.
+struct Surface {
+    glm::vec3 position;
+    float epsilon;       ///< metres by which rays are moved off the surface
+    glm::vec3 geometric; ///< unit normal of the triangle, toward the viewer
+    int material;
+    glm::vec3 shading; ///< unit normal for shading (interpolated, normal-mapped), on the geometric normal's side
+    float metallic;
+    glm::vec3 base_colour; ///< linear
+    float roughness;
+    glm::vec3 emission; ///< W/(sr·m²), alike to both sides
+    /// Where rays to the viewer's side start.
+    glm::vec3 origin() const { return position + epsilon * geometric; }
+};
+
+/// A ray as it was traced; kept only for measurements.
+struct TracedRay {
+    glm::vec3 origin;
+    float length;
+    glm::vec3 direction;
+    bool shadow;
+};
+
+class TraceGeometry {
+  public:
+    /// Copies what it needs of the shot at one frame. Built by one thread in a fixed order, so that the same scene
+    /// always gives the same tree (where two triangles lie in one place, the tree decides which one is hit).
+    TraceGeometry(const Shot& shot, const SceneState& state, bool diffuse_only);
+    ~TraceGeometry();
+    TraceGeometry(const TraceGeometry&) = delete;
+    TraceGeometry& operator=(const TraceGeometry&) = delete;
+
+    /// The nearest hit of a ray with unit direction. Alpha-tested texels are passed through.
+    Hit intersect(const glm::vec3& origin, const glm::vec3& direction, float length) const;
+    /// Whether anything lies on origin + t·direction for 0 < t < length (in units of the direction's length).
+    bool occluded(const glm::vec3& origin, const glm::vec3& direction, float length) const;
+    Surface surface(const Hit& hit, const glm::vec3& ray_direction) const;
+
+    struct Geometry {
+        std::vector<Vertex> vertices; ///< world space
+        std::vector<uint32_t> indices;
+        int material = 0;
+        bool vertex_colours = false;
+        bool mirrored = false;
+        size_t triangle_count() const { return indices.size() / 3; }
+    };
+    const std::vector<Geometry>& geometries() const { return geometries_; }
+    const Bounds& bounds() const { return bounds_; }
+    bool emissive(const Geometry& geometry) const { return materials_[size_t(geometry.material)].emissive; }
+    /// Emitted radiance at a point of a triangle; 0 where its alpha test fails.
+    glm::vec3 emission(const Geometry& geometry, uint32_t triangle, float u, float v) const;
+    /// The mean over the triangle and the largest value there can be, for sampling. The mean is approximate.
+    glm::vec3 mean_emission(const Geometry& geometry, uint32_t triangle) const;
+    glm::vec3 largest_emission(const Geometry& geometry) const;
+
+    RTCScene embree_scene() const { return scene_; }
+
+  private:
+    struct TextureUse {
+        const ReferenceTexture* texture = nullptr;
+        SlotTransform transform;
+    };
+    struct TraceMaterial {
+        glm::vec4 base_colour;
+        glm::vec3 emission;
+        float metallic, roughness, normal_scale, alpha_cutoff;
+        bool alpha_mask, emissive;
+        TextureUse base_colour_texture, metallic_roughness_texture, normal_texture, emission_texture;
+    };
+    struct Corners {
+        const Vertex *a, *b, *c;
+    };
+
+    void add_material(const Material& material, bool normal_maps);
+    void add_geometry(const Scene& scene, const Instance& instance);
+    void build();
+    TextureUse texture_use(const TextureSlot& slot) const;
+    Corners corners(const Geometry& geometry, uint32_t triangle) const;
+    bool opaque(const Geometry& geometry, uint32_t triangle, float u, float v) const;
+    static void filter(const RTCFilterFunctionNArguments* arguments);
+
+    std::vector<ReferenceTexture> textures_;
+    std::vector<TraceMaterial> materials_;
+    std::vector<Geometry> geometries_;
+    struct FilterData {
+        const TraceGeometry* owner;
+        const Geometry* geometry;
+    };
+    std::vector<FilterData> filter_data_;
+    Bounds bounds_;
+    RTCDevice device_ = nullptr;
+    RTCScene scene_ = nullptr;
+};
+
+/// The triangle's edge vectors crossed: twice its area long. For sampling emitters.
+glm::vec3 triangle_cross(const TraceGeometry::Geometry& geometry, uint32_t triangle);
+/// By how much a ray must start off a triangle so as not to hit it: some rounding steps of its largest coordinate, so
+/// that a scaled scene is traced alike.
+float self_intersection_epsilon(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+
+} // namespace bounce

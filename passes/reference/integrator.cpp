@@ -1,0 +1,314 @@
+#include "reference/integrator.h"
+
+#include "scene/camera_ray.h"
+
+#include <limits>
+
+namespace bounce {
+
+namespace {
+
+constexpr float k_infinity = std::numeric_limits<float>::infinity();
+/// Up to so many lights are all asked, beyond that one of them is drawn. The visible surface, where noise is seen, asks
+/// more.
+constexpr size_t k_all_lights_at_camera = 16;
+constexpr size_t k_all_lights = 4;
+
+/// Which part a light's first scattering belongs to.
+enum Kind { k_punctual, k_emitted, k_environment };
+
+} // namespace
+
+/// The surface's two lobes as seen from one direction, ready to be evaluated and drawn from.
+struct Integrator::Lobes {
+    glm::vec3 n, v;
+    glm::vec3 geometric;
+    glm::vec3 diffuse; ///< ρ/π
+    glm::vec3 f0;
+    float nv, alpha;
+    bool glossy;
+    Basis basis;
+
+    Lobes(const Surface& surface, const glm::vec3& to_viewer, bool diffuse_only)
+        : n(surface.shading), v(to_viewer), geometric(surface.geometric),
+          diffuse(brdf_diffuse(surface.base_colour, surface.metallic)),
+          f0(brdf_f0(surface.base_colour, surface.metallic)), nv(glm::dot(n, v)), alpha(brdf_alpha(surface.roughness)),
+          glossy(!diffuse_only && nv > 0), basis(n) {}
+
+    struct Gloss {
+        glm::vec3 value{0};
+        float density = 0;
+    };
+    /// The microfacet lobe (brdf_specular) with its sampling density, which share most of their terms.
+    Gloss gloss(const glm::vec3& l, float nl) const {
+        Gloss g;
+        if (!glossy || nl <= 0) return g;
+        const glm::vec3 h = glm::normalize(v + l);
+        const float d = ggx_density(n, h, alpha);
+        const glm::vec3 fresnel = f0 + (1.0f - f0) * schlick_weight(v, h);
+        g.value = fresnel * (d * smith_visibility(nl, nv, alpha));
+        g.density = visible_normal_density(d, nv, alpha);
+        return g;
+    }
+    glm::vec3 draw_diffuse(const glm::vec2& u) const { return basis.to_world(cosine_hemisphere(u)); }
+    glm::vec3 draw_gloss(const glm::vec2& u) const {
+        const glm::vec3 h = basis.to_world(visible_normal(basis.to_local(v), alpha, u));
+        return glm::normalize(2.0f * glm::dot(v, h) * h - v);
+    }
+    /// Light from below the surface itself is blocked by it, whatever the shading normal says.
+    bool above(const glm::vec3& l) const { return glm::dot(geometric, l) > 0; }
+};
+
+TraceScene::TraceScene(const Shot& shot, const ShotState& state, const ReferenceSettings& s)
+    : geometry(shot, state.scene, s.diffuse_only || shot.diffuse_only), emitters(geometry),
+      environment(shot.environment), lights(state.scene.lights), camera(state.camera),
+      camera_basis(bounce::camera_basis(camera.position, camera.target, camera.up)),
+      tan_half_vfov(std::tan(0.5f * camera.vfov)), size(float(shot.width), float(shot.height)), settings(s),
+      diffuse_only(s.diffuse_only || shot.diffuse_only),
+      occlusion_distance(s.occlusion_distance * geometry.bounds().diagonal()) {}
+
+Hit Integrator::trace(const glm::vec3& origin, const glm::vec3& direction) {
+    ++rays_;
+    if (record_) record_->push_back({origin, k_infinity, direction, false});
+    return scene_.geometry.intersect(origin, direction, k_infinity);
+}
+
+bool Integrator::blocked(const glm::vec3& origin, const glm::vec3& to_end, float length) {
+    ++rays_;
+    if (record_) record_->push_back({origin, length, to_end, true});
+    return scene_.geometry.occluded(origin, to_end, length);
+}
+
+float Integrator::light_probability(size_t i, const glm::vec3& x) const {
+    float sum = 0;
+    for (size_t j = 0; j < scene_.lights.size(); ++j)
+        sum += scene_.lights.importance(j, x);
+    return sum > 0 ? scene_.lights.importance(i, x) / sum : 0;
+}
+
+/// Next-event estimation: for each light (or drawn light) that reaches the surface, calls
+/// add(kind, l, irradiance at normal incidence ÷ density, density per solid angle, 0 for a hard light).
+template <class Add>
+void Integrator::sample_lights(const Surface& surface, PixelSampler& sampler, size_t most_lights, Add&& add) {
+    const glm::vec3 origin = surface.origin();
+    const PunctualLights& lights = scene_.lights;
+    auto from_light = [&](size_t i, float probability) {
+        const glm::vec2 u = lights.any_soft() ? sampler.next_pair() : glm::vec2(0);
+        const PunctualLights::Sample s = lights.sample(i, origin, u);
+        if (glm::dot(s.direction, surface.geometric) <= 0 || glm::dot(s.direction, surface.shading) <= 0) return;
+        if (s.irradiance == glm::vec3(0)) return;
+        // A little short of the light, in case it touches a surface.
+        const float length = s.distance * (1 - 1e-6f);
+        if (blocked(origin, s.direction, length)) return;
+        add(k_punctual, s.direction, s.irradiance / probability, s.density * probability);
+    };
+    if (lights.size() <= most_lights) {
+        for (size_t i = 0; i < lights.size(); ++i)
+            from_light(i, 1);
+    } else {
+        float sum = 0, before = 0;
+        for (size_t i = 0; i < lights.size(); ++i)
+            sum += lights.importance(i, origin);
+        const float target = sampler.next() * sum;
+        for (size_t i = 0; sum > 0 && i < lights.size(); ++i) {
+            const float importance = lights.importance(i, origin);
+            before += importance;
+            if (before <= target || importance <= 0) continue;
+            from_light(i, importance / sum);
+            break;
+        }
+    }
+    if (!scene_.emitters.empty()) {
+        const float choice = sampler.next();
+        const Emitters::Sample s = scene_.emitters.sample(scene_.geometry, origin, choice, sampler.next_pair());
+        if (s.density > 0 && s.radiance != glm::vec3(0) && glm::dot(s.direction, surface.geometric) > 0 &&
+            glm::dot(s.direction, surface.shading) > 0) {
+            if (!blocked(origin, s.position - origin, 1))
+                add(k_emitted, s.direction, s.radiance / s.density, s.density);
+        }
+    }
+    if (scene_.environment.sampled()) {
+        const float choice = sampler.next();
+        float density;
+        const glm::vec3 l = scene_.environment.sample(choice, sampler.next_pair(), density);
+        if (glm::dot(l, surface.geometric) > 0 && glm::dot(l, surface.shading) > 0) {
+            const glm::vec3 radiance = scene_.environment.radiance(l);
+            if (radiance != glm::vec3(0) && !blocked(origin, l, k_infinity)) {
+                add(k_environment, l, radiance / density, density);
+            }
+        }
+    }
+}
+
+/// What a ray drawn from a lobe meets by itself, weighted against next-event estimation: add(kind, radiance).
+template <class Add>
+void Integrator::meet_lights(const glm::vec3& origin, const glm::vec3& direction, const Hit& hit, float own_density,
+                             size_t most_lights, Add&& add) {
+    scene_.lights.meet(origin, direction, hit.valid() ? hit.distance : k_infinity,
+                       [&](size_t i, const glm::vec3& radiance, float density) {
+                           if (scene_.lights.size() > most_lights) density *= light_probability(i, origin);
+                           add(k_punctual, radiance * mis_weight(own_density, density));
+                       });
+    if (!hit.valid()) {
+        if (!scene_.environment.present()) return;
+        add(k_environment,
+            scene_.environment.radiance(direction) * mis_weight(own_density, scene_.environment.density(direction)));
+        return;
+    }
+    const TraceGeometry::Geometry& mesh = scene_.geometry.geometries()[hit.geometry];
+    if (!scene_.geometry.emissive(mesh)) return;
+    const glm::vec3 emission = scene_.geometry.emission(mesh, hit.triangle, hit.u, hit.v);
+    if (emission == glm::vec3(0)) return;
+    add(k_emitted, emission * mis_weight(own_density, scene_.emitters.density(scene_.geometry, hit, direction)));
+}
+
+/// The radiance that the surface at `hit` scatters back along the ray, in all allowed orders.
+glm::vec3 Integrator::follow(Hit hit, glm::vec3 direction, PixelSampler& sampler, uint32_t block) {
+    glm::vec3 radiance(0), throughput(1);
+    const int bounces = scene_.settings.bounces;
+    const bool anything_to_meet = scene_.environment.present() || !scene_.emitters.empty() || scene_.lights.any_soft();
+    for (int depth = 1;; ++depth) {
+        if (bounces != k_unlimited_bounces && depth > bounces) break;
+        sampler.start_block(block + uint32_t(2 * depth));
+        const glm::vec2 u = sampler.next_pair();
+        const float choice = sampler.next(), survival = sampler.next();
+
+        const Surface surface = scene_.geometry.surface(hit, direction);
+        const Lobes lobes(surface, -direction, scene_.diffuse_only);
+        float gloss_share = 0;
+        if (lobes.glossy) {
+            // Schlick at the viewing angle is near enough for a choice between lobes.
+            const float m = 1 - std::min(lobes.nv, 1.0f), m2 = m * m;
+            const float specular = luminance(lobes.f0 + (1.0f - lobes.f0) * (m2 * m2 * m));
+            const float diffuse = luminance(lobes.diffuse) * k_pi;
+            gloss_share = diffuse > 0 ? std::clamp(specular / (specular + diffuse), 0.1f, 0.9f) : 1.0f;
+        }
+        auto evaluate = [&](const glm::vec3& l, float nl, float& density) {
+            const Lobes::Gloss gloss = lobes.gloss(l, nl);
+            density = gloss_share * gloss.density + (1 - gloss_share) * nl / k_pi;
+            return lobes.diffuse + gloss.value;
+        };
+        sample_lights(surface, sampler, k_all_lights,
+                      [&](Kind, const glm::vec3& l, const glm::vec3& irradiance, float density) {
+                          const float nl = glm::dot(lobes.n, l);
+                          float own;
+                          const glm::vec3 f = evaluate(l, nl, own);
+                          radiance += throughput * f * irradiance * (nl * (density > 0 ? mis_weight(density, own) : 1));
+                      });
+
+        const bool last = bounces != k_unlimited_bounces && depth == bounces;
+        if (last && !anything_to_meet) break;
+        const glm::vec3 l = choice < gloss_share ? lobes.draw_gloss(u) : lobes.draw_diffuse(u);
+        const float nl = glm::dot(lobes.n, l);
+        if (nl <= 0 || !lobes.above(l)) break;
+        float density;
+        const glm::vec3 f = evaluate(l, nl, density);
+        if (!(density > 0)) break;
+        throughput *= f * (nl / density);
+        if (depth >= scene_.settings.roulette_depth) {
+            const float most = std::max(throughput.r, std::max(throughput.g, throughput.b));
+            const float probability = std::min(0.95f, most);
+            if (!(survival < probability)) break;
+            throughput /= probability;
+        }
+        const glm::vec3 origin = surface.origin();
+        hit = trace(origin, l);
+        meet_lights(origin, l, hit, density, k_all_lights,
+                    [&](Kind, const glm::vec3& met) { radiance += throughput * met; });
+        if (!hit.valid()) break;
+        direction = l;
+    }
+    return radiance;
+}
+
+PixelSample Integrator::sample(int x, int y, PixelSampler& sampler) {
+    PixelSample out{};
+    auto part = [&out](int index) { return &out[size_t(k_reference_parts[size_t(index)].offset)]; };
+    auto add = [](float* sum, const glm::vec3& value) {
+        for (int c = 0; c < 3; ++c)
+            sum[c] += value[c];
+    };
+    // First scatterings by kind: out.direct, out.emitted, out.environment, and the same as irradiance.
+    auto add_first = [&](Kind kind, const glm::vec3& radiance) { add(part(kind), radiance); };
+    auto add_irradiance = [&](Kind kind, const glm::vec3& irradiance) { add(part(6 + kind), irradiance); };
+    float* const emission = part(5);
+    float& open = *part(10);
+    float& open_near = *part(11);
+
+    sampler.start_block(0);
+    const glm::vec2 jitter = sampler.next_pair();
+    const glm::vec3 camera_direction =
+        camera_ray(scene_.camera_basis, scene_.tan_half_vfov, scene_.size, glm::vec2(x, y) + jitter);
+    const Hit first = trace(scene_.camera.position, camera_direction);
+    if (!first.valid()) {
+        if (scene_.environment.present()) add(emission, scene_.environment.radiance(camera_direction));
+        open = open_near = 1;
+        return out;
+    }
+    const glm::vec2 u_diffuse = sampler.next_pair(), u_gloss = sampler.next_pair();
+    const Surface surface = scene_.geometry.surface(first, camera_direction);
+    const Lobes lobes(surface, -camera_direction, scene_.diffuse_only);
+    const glm::vec3 origin = surface.origin();
+    add(emission, surface.emission);
+
+    sample_lights(surface, sampler, k_all_lights_at_camera,
+                  [&](Kind kind, const glm::vec3& l, const glm::vec3& irradiance, float density) {
+                      const float nl = glm::dot(lobes.n, l);
+                      const Lobes::Gloss gloss = lobes.gloss(l, nl);
+                      const glm::vec3 e = irradiance * (nl * (density > 0 ? mis_weight(density, nl / k_pi) : 1.0f));
+                      add_irradiance(kind, e);
+                      add_first(kind, lobes.diffuse * e +
+                                          gloss.value * irradiance *
+                                              (nl * (density > 0 ? mis_weight(density, gloss.density) : 1.0f)));
+                  });
+
+    // The diffuse path also measures ambient occlusion: its first ray has the density cosθ/π.
+    const glm::vec3 l = lobes.draw_diffuse(u_diffuse);
+    if (const float nl = glm::dot(lobes.n, l); nl > 0 && lobes.above(l)) {
+        const Hit hit = trace(origin, l);
+        open = hit.valid() ? 0.0f : 1.0f;
+        open_near = hit.valid() && hit.distance < scene_.occlusion_distance ? 0.0f : 1.0f;
+        meet_lights(origin, l, hit, nl / k_pi, k_all_lights_at_camera, [&](Kind kind, const glm::vec3& met) {
+            add_irradiance(kind, k_pi * met);
+            add_first(kind, lobes.diffuse * (k_pi * met));
+        });
+        if (hit.valid()) {
+            const glm::vec3 later = follow(hit, l, sampler, 1);
+            add(part(9), k_pi * later);
+            add(part(3), lobes.diffuse * (k_pi * later));
+        }
+    }
+    if (lobes.glossy) {
+        const glm::vec3 g = lobes.draw_gloss(u_gloss);
+        const float nl = glm::dot(lobes.n, g);
+        const Lobes::Gloss gloss = lobes.gloss(g, nl);
+        if (nl > 0 && lobes.above(g) && gloss.density > 0) {
+            const glm::vec3 weight = gloss.value * (nl / gloss.density);
+            const Hit hit = trace(origin, g);
+            meet_lights(origin, g, hit, gloss.density, k_all_lights_at_camera,
+                        [&](Kind kind, const glm::vec3& met) { add_first(kind, weight * met); });
+            if (hit.valid()) add(part(4), weight * follow(hit, g, sampler, 2));
+        }
+    }
+    return out;
+}
+
+PixelSurface Integrator::centre(int x, int y) {
+    PixelSurface out;
+    const glm::vec3 direction =
+        camera_ray(scene_.camera_basis, scene_.tan_half_vfov, scene_.size, glm::vec2(x, y) + 0.5f);
+    const Hit hit = scene_.geometry.intersect(scene_.camera.position, direction, k_infinity);
+    if (!hit.valid()) return out;
+    const Surface surface = scene_.geometry.surface(hit, direction);
+    out.hit = true;
+    out.position = surface.position;
+    out.normal = surface.shading;
+    out.albedo = surface.base_colour;
+    out.material = float(surface.material);
+    out.roughness = surface.roughness;
+    out.metallic = surface.metallic;
+    out.distance = hit.distance;
+    return out;
+}
+
+} // namespace bounce

@@ -1,0 +1,73 @@
+#pragma once
+// One path-traced sample of a pixel: unidirectional, next-event estimation and lobe sampling joined by multiple
+// importance sampling (Veach 1997). At the visible surface both lobes are followed by a path of their own, which keeps
+// the parts apart.
+
+#include "core/low_discrepancy.h"
+#include "reference/emitters.h"
+#include "reference/environment_light.h"
+#include "reference/geometry.h"
+#include "reference/punctual_lights.h"
+#include "reference/settings.h"
+
+#include <array>
+
+namespace bounce {
+
+/// All that light transport needs of a shot at one frame; immutable.
+struct TraceScene {
+    TraceScene(const Shot& shot, const ShotState& state, const ReferenceSettings& settings);
+
+    TraceGeometry geometry;
+    Emitters emitters;
+    EnvironmentLight environment;
+    PunctualLights lights;
+    Camera camera;
+    glm::mat3 camera_basis;
+    float tan_half_vfov;
+    glm::vec2 size;
+    ReferenceSettings settings;
+    bool diffuse_only;
+    float occlusion_distance; ///< metres
+};
+
+/// The channels of k_reference_parts, in their order.
+using PixelSample = std::array<float, k_reference_channels>;
+
+/// What the camera sees at a pixel's centre.
+struct PixelSurface {
+    bool hit = false;
+    glm::vec3 position{0}, normal{0}, albedo{0};
+    float material = -1, roughness = 0, metallic = 0, distance = 0;
+};
+
+class Integrator {
+  public:
+    explicit Integrator(const TraceScene& scene) : scene_(scene) {}
+
+    PixelSample sample(int x, int y, PixelSampler& sampler);
+    PixelSurface centre(int x, int y);
+
+    uint64_t rays() const { return rays_; }
+    /// Every ray traced from now on is appended to `record` (null: none).
+    void record_rays(std::vector<TracedRay>* record) { record_ = record; }
+
+  private:
+    struct Lobes;
+    struct Scattered;
+    Hit trace(const glm::vec3& origin, const glm::vec3& direction);
+    bool blocked(const glm::vec3& origin, const glm::vec3& to_end, float length);
+    template <class Add>
+    void sample_lights(const Surface& surface, PixelSampler& sampler, size_t most_lights, Add&& add);
+    template <class Add>
+    void meet_lights(const glm::vec3& origin, const glm::vec3& direction, const Hit& hit, float own_density,
+                     size_t most_lights, Add&& add);
+    glm::vec3 follow(Hit hit, glm::vec3 direction, PixelSampler& sampler, uint32_t block);
+    float light_probability(size_t i, const glm::vec3& x) const;
+
+    const TraceScene& scene_;
+    uint64_t rays_ = 0;
+    std::vector<TracedRay>* record_ = nullptr;
+};
+
+} // namespace bounce

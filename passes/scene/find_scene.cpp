@@ -1,0 +1,131 @@
+#include "scene/find_scene.h"
+#include "core/error.h"
+#include "core/paths.h"
+#include "core/text.h"
+#include "scene/shot.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+
+namespace bounce {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string lower(std::string text) {
+    for (char& c : text)
+        c = char(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+bool is_gltf(const fs::path& path) {
+    std::string extension = lower(path.extension().string());
+    return extension == ".gltf" || extension == ".glb";
+}
+
+std::vector<fs::path> entries(const fs::path& folder) {
+    std::vector<fs::path> out;
+    std::error_code error;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+        out.push_back(it->path());
+    std::sort(out.begin(), out.end()); // the order of a folder is the file system's; ours is fixed
+    return out;
+}
+
+/// `relative` below `folder`, each part matched without regard to case where the exact name is not there.
+fs::path ignoring_case(const fs::path& folder, const fs::path& relative) {
+    fs::path at = folder;
+    std::error_code ignored;
+    for (const fs::path& part : relative) {
+        if (fs::exists(at / part, ignored)) {
+            at /= part;
+            continue;
+        }
+        std::string wanted = lower(part.string());
+        fs::path match;
+        for (const fs::path& entry : entries(at))
+            if (match.empty() && lower(entry.filename().string()) == wanted) match = entry;
+        if (match.empty()) return {};
+        at = match;
+    }
+    return at;
+}
+
+/// The one .gltf of a folder, or the one that is named for it, or the first.
+fs::path scene_in(const fs::path& folder) {
+    std::vector<fs::path> scenes;
+    for (const fs::path& entry : entries(folder))
+        if (is_gltf(entry)) scenes.push_back(entry);
+    for (const fs::path& scene : scenes)
+        if (lower(scene.stem().string()) == lower(folder.filename().string())) return scene;
+    return scenes.empty() ? fs::path() : scenes.front();
+}
+
+/// What `name` means below one folder of the search path, or nothing.
+fs::path resolve(const fs::path& folder, const std::string& name) {
+    std::error_code ignored;
+    for (const char* extension : {"", ".gltf", ".glb"}) {
+        fs::path found = ignoring_case(folder, name + extension);
+        if (found.empty()) continue;
+        if (fs::is_regular_file(found, ignored)) return found;
+        if (fs::is_directory(found, ignored))
+            if (fs::path scene = scene_in(found); !scene.empty()) return scene;
+    }
+    return {};
+}
+
+} // namespace
+
+std::vector<fs::path> scene_search_path() {
+    std::vector<fs::path> folders;
+    if (const char* set = std::getenv("BOUNCE_SCENES"))
+        for (const std::string& folder : split(set, ':'))
+            if (!folder.empty()) folders.emplace_back(folder);
+    folders.push_back(assets_folder() / "scenes");
+    folders.push_back(root_folder() / ".." / "shared" / "scenes");
+    return folders;
+}
+
+fs::path find_scene(const std::string& name, const fs::path& base) {
+    if (trim(name).empty()) throw Error("a scene is a path or a name, but this one is empty");
+    std::vector<fs::path> folders{base.empty() ? fs::path(".") : base};
+    for (const fs::path& folder : scene_search_path())
+        folders.push_back(folder);
+    std::vector<std::string> tried, known;
+    if (fs::path(name).is_absolute()) {
+        if (fs::path found = resolve(fs::path(name).root_path(), fs::path(name).relative_path().string());
+            !found.empty())
+            return found;
+        throw Error("no scene at '" + name + "'");
+    }
+    for (const fs::path& folder : folders) {
+        if (fs::path found = resolve(folder, name); !found.empty()) return found.lexically_normal();
+        std::error_code ignored;
+        tried.push_back(fs::weakly_canonical(folder, ignored).string());
+    }
+    for (const fs::path& folder : scene_search_path())
+        for (const fs::path& entry : entries(folder)) {
+            if (is_gltf(entry)) known.push_back(entry.stem().string());
+            std::error_code ignored;
+            if (fs::is_directory(entry, ignored) && !scene_in(entry).empty())
+                known.push_back(entry.filename().string());
+        }
+    throw Error("no scene '" + name + "'" + did_you_mean(name, known) + "; looked in " + join(tried, ", "));
+}
+
+fs::path find_scene_file(const std::string& name, const fs::path& base) {
+    std::vector<fs::path> folders{base.empty() ? fs::path(".") : base};
+    for (const fs::path& folder : scene_search_path())
+        folders.push_back(folder);
+    std::vector<std::string> tried;
+    for (const fs::path& folder : folders) {
+        std::error_code ignored;
+        if (fs::is_regular_file(folder / name, ignored)) return (folder / name).lexically_normal();
+        tried.push_back(fs::weakly_canonical(folder, ignored).string());
+    }
+    throw Error("there is no file '" + name + "'; looked in " + join(tried, ", "));
+}
+
+} // namespace bounce

@@ -1,0 +1,34 @@
+#pragma once
+// Punctual lights on the CPU (KHR_lights_punctual, its units read as radiometric ones). Mirrors glsl/lib/light.glsl.
+
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bounce {
+
+/// The extension's own angular attenuation (1 for lights that are no spot); `to_point` is the unit direction from the
+/// light to the lit point.
+inline float spot_falloff(const Light& light, const glm::vec3& to_point) {
+    if (light.type != LightType::spot) return 1.0f;
+    float outer = std::cos(light.outer_cone);
+    float scale = 1.0f / std::max(0.001f, std::cos(light.inner_cone) - outer);
+    float t = std::clamp((glm::dot(light.direction, to_point) - outer) * scale, 0.0f, 1.0f);
+    return t * t;
+}
+
+/// The irradiance at normal incidence at x (W/m²) without occlusion; `l` becomes the unit direction from x to the
+/// light.
+inline glm::vec3 light_irradiance(const Light& light, const glm::vec3& x, glm::vec3& l) {
+    if (light.type == LightType::directional) {
+        l = -light.direction;
+        return light.intensity;
+    }
+    glm::vec3 to_light = light.position - x;
+    float distance_squared = std::max(glm::dot(to_light, to_light), 1.0e-20f);
+    l = to_light / std::sqrt(distance_squared);
+    return light.intensity * (spot_falloff(light, -l) / distance_squared);
+}
+
+} // namespace bounce

@@ -1,0 +1,192 @@
+#include "scene/shot.h"
+
+#include "core/error.h"
+#include "core/image.h"
+#include "core/paths.h"
+#include "core/text.h"
+#include "scene/gltf_parts.h"
+#include "scene/json_text.h"
+#include "scene/keyframes.h"
+#include "scene/merge.h"
+#include "scene/shot_parts.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace bounce {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+class ShotReader {
+  public:
+    ShotReader(const fs::path& path, const json& root) : base_(path.parent_path()), object_(root, "", errors_) {
+        shot_.path = path;
+        shot_.name = path.stem().string();
+    }
+
+    Shot read() {
+        object_.text("about");
+        shot_.width = object_.whole("width", 1, 16384).value_or(shot_.width);
+        shot_.height = object_.whole("height", 1, 16384).value_or(shot_.height);
+        shot_.time = object_.number("time", -1e6, 1e6).value_or(0);
+        shot_.fps = object_.number("fps", 0.001, 100000).value_or(shot_.fps);
+        shot_.diffuse_only = object_.boolean("diffuse_only").value_or(false);
+        shot_.normal_maps = object_.boolean("normal_maps").value_or(true);
+        if (const json* value = object_.find("camera")) shot_.camera = read_camera(*value, errors_);
+        shot_.camera_path = read_path(object_, "camera_path");
+        bool path_aims = !shot_.camera_path.empty() && shot_.camera_path.keys.front().has_target;
+        if (object_.has("camera_path") && !object_.has("camera") && !path_aims)
+            errors_.add("camera_path has no targets, and there is no camera to say which way it looks");
+        if (const json* value = object_.find("environment"))
+            shot_.environment = read_environment(*value, base_, errors_);
+        read_scene();
+        read_objects();
+        read_lights();
+        object_.finish();
+        errors_.throw_if_any(shot_.path.string());
+
+        if (!shot_.normal_maps) {
+            for (Material& material : shot_.scene.materials)
+                material.normal_texture = {};
+            drop_unused_textures(shot_.scene);
+        }
+        mark_dynamic_nodes(shot_.scene);
+        complete_shot(shot_, object_.has("camera") || !shot_.camera_path.empty(), false);
+        return std::move(shot_);
+    }
+
+  private:
+    void read_scene() {
+        object_.require("scene", "a glTF file, or the name of one on the scene search path");
+        auto name = object_.text("scene");
+        if (!name) return;
+        try {
+            shot_.scene = load_gltf(find_scene(*name, base_));
+        } catch (const Error& error) {
+            errors_.add(std::string("scene: ") + error.what());
+        }
+    }
+
+    void read_objects() {
+        const json* objects = object_.find("objects");
+        if (!objects) return;
+        if (!objects->is_array()) return errors_.add("objects must be an array, but is " + json_kind(*objects));
+        SceneMerger merger(shot_.scene);
+        for (size_t i = 0; i < objects->size(); ++i) {
+            std::string where = fmt::format("objects[{}]", i), name;
+            size_t before = errors_.messages().size();
+            Node node = read_object((*objects)[i], where, errors_, name);
+            if (errors_.messages().size() > before && name.empty()) continue;
+            try {
+                merger.place(find_scene(name, base_), node);
+            } catch (const Error& error) {
+                errors_.add(where + ".scene: " + error.what());
+            }
+        }
+    }
+
+    void read_lights() {
+        const json* lights = object_.find("lights");
+        if (lights && !lights->is_array()) return errors_.add("lights must be an array, but is " + json_kind(*lights));
+        bool names_any = lights && !lights->empty();
+        // "add" and "replace", in this order; a shot that names lights means those.
+        bool replace = object_.choice("lights_mode", {"add", "replace"}).value_or(names_any ? 1 : 0) == 1;
+        Scene& scene = shot_.scene;
+        if (replace) {
+            scene.lights.clear();
+            for (Node& node : scene.nodes)
+                node.light = -1;
+        }
+        for (size_t i = 0; lights && i < lights->size(); ++i)
+            read_light((*lights)[i], fmt::format("lights[{}]", i), errors_, scene);
+    }
+
+    fs::path base_;
+    ErrorList errors_;
+    JsonObject object_;
+    Shot shot_;
+};
+
+/// What a panel shows; the nodes' own paths are what moves the lights.
+void collect_light_paths(Shot& shot) {
+    shot.light_paths.assign(shot.scene.lights.size(), Path{});
+    for (const Node& node : shot.scene.nodes)
+        if (node.light >= 0) shot.light_paths[size_t(node.light)] = node.path;
+}
+
+Shot wrap_scene(const fs::path& path) {
+    Shot shot;
+    shot.path = path;
+    shot.scene = load_gltf(path);
+    shot.name = shot.scene.name;
+    complete_shot(shot, false, true);
+    return shot;
+}
+
+bool is_gltf(const fs::path& path) {
+    return path.extension() == ".gltf" || path.extension() == ".glb" || path.extension() == ".GLTF" ||
+           path.extension() == ".GLB";
+}
+
+std::vector<std::string> shot_names() {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (fs::directory_iterator it(assets_folder() / "shots", error), end; !error && it != end; it.increment(error))
+        if (it->path().extension() == ".json") names.push_back(it->path().stem().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+/// A file as given, a shot by name, or a scene by name.
+fs::path find_shot(const std::string& name) {
+    std::error_code ignored;
+    if (fs::is_regular_file(name, ignored)) return name;
+    for (const fs::path& candidate : {assets_folder() / "shots" / (name + ".json"), assets_folder() / "shots" / name})
+        if (!name.empty() && fs::is_regular_file(candidate, ignored)) return candidate;
+    if (fs::path(name).extension() == ".json")
+        throw Error("no shot '" + name + "'" + did_you_mean(fs::path(name).stem().string(), shot_names()));
+    try {
+        return find_scene(name, ".");
+    } catch (const Error& error) {
+        throw Error("no shot '" + name + "' in " + (assets_folder() / "shots").string() +
+                    did_you_mean(name, shot_names()) + ", and " + error.what());
+    }
+}
+
+} // namespace
+
+Shot load_shot(const std::string& name) {
+    fs::path path = find_shot(name);
+    Shot shot;
+    if (is_gltf(path)) {
+        shot = wrap_scene(path);
+    } else if (path.extension() == ".json") {
+        json root = parse_json(read_file(path), path.string(), true);
+        shot = ShotReader(path, root).read();
+    } else {
+        throw Error(path.string() + ": not a shot: a .json, .gltf or .glb is wanted");
+    }
+    collect_light_paths(shot);
+    return shot;
+}
+
+ShotState evaluate_shot(const Shot& shot, int frame) {
+    ShotState state;
+    state.time = shot.time_at(frame);
+    // Frame 0 has no frame before it: nothing has moved yet.
+    state.scene = evaluate_scene(shot.scene, state.time, shot.time_at(std::max(frame - 1, 0)));
+    state.camera = shot.camera;
+    if (!shot.camera_path.empty()) {
+        PathKey key = shot.camera_path.at(state.time);
+        // Without targets the camera travels along the path and keeps the way it looks.
+        glm::vec3 ahead = shot.camera.target - shot.camera.position;
+        state.camera.position = key.position;
+        state.camera.target = key.has_target ? key.target : key.position + ahead;
+    }
+    return state;
+}
+
+} // namespace bounce

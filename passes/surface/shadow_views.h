@@ -1,0 +1,27 @@
+#pragma once
+// The views from which lights see the scene: one of a spot or directional light, six of a point light. Shadow maps and
+// reflective shadow maps share them.
+
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace bounce {
+
+/// std430 mirror of glsl/lib/shadow.glsl. Depth is larger when nearer: near_plane / distance for perspective views,
+/// 1 − (distance − near_plane) / range for orthographic ones (range > 0); 0 where nothing was drawn.
+struct ShadowView {
+    glm::mat4 view_projection{1};
+    glm::vec3 origin{0};    ///< of the light; orthographic: on the near plane's centre
+    float near_plane = 0;   ///< metres
+    glm::vec3 direction{0}; ///< unit, the way the view looks
+    float range = 0;        ///< metres; 0: perspective
+    float texel_size = 0;   ///< perspective: metres at a distance of one metre; orthographic: metres
+    float padding[3] = {};
+};
+static_assert(sizeof(ShadowView) == 112);
+
+/// The views of all lights, in the order of the lights. `resolution` in texels; directional views are fitted to `bounds`.
+std::vector<ShadowView> shadow_views(const std::vector<Light>& lights, const Bounds& bounds, int resolution);
+
+} // namespace bounce

@@ -1,0 +1,29 @@
+"""The top level stays as it is, and files stay short: a file holds one idea."""
+
+import unittest
+
+import tree
+
+TOP_LEVEL = {"CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "app", "passes", "glsl", "third_party", "assets",
+             "tests"}
+LONGEST = 450  # lines
+CODE = {".cpp", ".h", ".glsl", ".comp", ".vert", ".frag", ".geom", ".py", ".sh", ".cmake", ".txt", ""}
+
+
+class Layout(unittest.TestCase):
+    def test_the_top_level_is_fixed(self):
+        extra = {path.parts[0] for path in tree.files() if not path.parts[0].startswith(".")} - TOP_LEVEL
+        self.assertFalse(extra, "these do not belong at the top level")
+
+    def test_files_are_short(self):
+        long = []
+        for path in tree.files():
+            if path.parts[0] in ("app", "passes", "glsl", "tests") and path.suffix in CODE:
+                lines = (tree.ROOT / path).read_bytes().count(b"\n")
+                if lines > LONGEST:
+                    long.append(f"{path}: {lines} lines, more than {LONGEST}: is it one idea?")
+        self.assertFalse(long, "\n" + "\n".join(long))
+
+
+if __name__ == "__main__":
+    unittest.main()
