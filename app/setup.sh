@@ -54,7 +54,7 @@ install_packages() {
     as_root+=(env DEBIAN_FRONTEND=noninteractive)
     local apt=("${as_root[@]}" apt-get -q -y -o DPkg::Lock::Timeout=600)
     log=$(mktemp)
-    say "Installing $(wc -w <<<"$missing") system packages (the list is third_party/packages.txt)."
+    say "Installing the system packages of third_party/packages.txt that are missing: $missing"
     if [[ -n $(dpkg --audit) ]]; then # an earlier installation was interrupted
         run_logged "$log" "${as_root[@]}" dpkg --configure -a || fail "dpkg could not finish an earlier installation"
     fi

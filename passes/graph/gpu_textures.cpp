@@ -25,7 +25,7 @@ GLuint GpuScene::sampler_for(Wrap u, Wrap v, bool nearest) {
     auto found = samplers_.find(key);
     if (found == samplers_.end()) {
         Sampler sampler(nearest ? GL_NEAREST_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_LINEAR, nearest ? GL_NEAREST : GL_LINEAR,
-                        GL_REPEAT, "material sampler", nearest ? 1.0f : 8.0f);
+                        GL_REPEAT, "material sampler");
         sampler.set_wrap(gl_wrap(u), gl_wrap(v));
         found = samplers_.emplace(key, std::move(sampler)).first;
     }

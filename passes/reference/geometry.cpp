@@ -144,6 +144,21 @@ Surface TraceGeometry::surface(const Hit& hit, const glm::vec3& ray_direction) c
     const Corners t = corners(geometry, hit.triangle);
     const float u = hit.u, v = hit.v;
 
+    // All texels are asked for first, so that their ways from memory overlap.
+    const glm::vec2 uv[2] = {mix_corners(uv_of(*t.a, 0), uv_of(*t.b, 0), uv_of(*t.c, 0), u, v),
+                             mix_corners(uv_of(*t.a, 1), uv_of(*t.b, 1), uv_of(*t.c, 1), u, v)};
+    auto find = [&uv](const TextureUse& use, const TextureTaps* shared) {
+        TextureTaps taps{};
+        if (!use.texture) return taps;
+        taps = shared ? *shared : use.texture->taps(use.transform.apply(uv[use.transform.uv_set]));
+        use.texture->prefetch(taps);
+        return taps;
+    };
+    const TextureTaps colour_taps = find(material.base_colour_texture, nullptr);
+    const TextureTaps metallic_roughness_taps =
+        find(material.metallic_roughness_texture, material.shared_metallic_roughness ? &colour_taps : nullptr);
+    const TextureTaps normal_taps = find(material.normal_texture, material.shared_normal ? &colour_taps : nullptr);
+
     Surface s;
     const glm::vec3 edge1 = t.b->position - t.a->position, edge2 = t.c->position - t.a->position;
     s.position = t.a->position + u * edge1 + v * edge2;
@@ -153,10 +168,8 @@ Surface TraceGeometry::surface(const Hit& hit, const glm::vec3& ray_direction) c
     s.material = geometry.material;
 
     glm::vec3 normal = unit_or(mix_corners(t.a->normal, t.b->normal, t.c->normal, u, v), s.geometric);
-    const glm::vec2 uv[2] = {mix_corners(uv_of(*t.a, 0), uv_of(*t.b, 0), uv_of(*t.c, 0), u, v),
-                             mix_corners(uv_of(*t.a, 1), uv_of(*t.b, 1), uv_of(*t.c, 1), u, v)};
-    if (const auto& use = material.normal_texture; use.texture) {
-        const glm::vec4 texel = use.texture->sample(use.transform.apply(uv[use.transform.uv_set]));
+    if (const ReferenceTexture* texture = material.normal_texture.texture) {
+        const glm::vec4 texel = texture->sample(normal_taps);
         const float x = (2 * texel.x - 1) * material.normal_scale, y = (2 * texel.y - 1) * material.normal_scale;
         const glm::vec3 tangent = unit_or(
             mix_corners(glm::vec3(t.a->tangent), glm::vec3(t.b->tangent), glm::vec3(t.c->tangent), u, v), glm::vec3(0));
@@ -167,18 +180,17 @@ Surface TraceGeometry::surface(const Hit& hit, const glm::vec3& ray_direction) c
     }
     s.shading = glm::dot(normal, s.geometric) < 0 ? -normal : normal;
 
-    glm::vec3 colour = material.base_colour;
-    if (const auto& use = material.base_colour_texture; use.texture) {
-        colour *= glm::vec3(use.texture->sample(use.transform.apply(uv[use.transform.uv_set])));
+    s.base_colour = material.base_colour;
+    if (const ReferenceTexture* texture = material.base_colour_texture.texture) {
+        s.base_colour *= glm::vec3(texture->sample(colour_taps));
     }
     if (geometry.vertex_colours) {
-        colour *= glm::vec3(mix_corners(colour_of(*t.a), colour_of(*t.b), colour_of(*t.c), u, v));
+        s.base_colour *= glm::vec3(mix_corners(colour_of(*t.a), colour_of(*t.b), colour_of(*t.c), u, v));
     }
-    s.base_colour = colour;
     s.metallic = material.metallic;
     s.roughness = material.roughness;
-    if (const auto& use = material.metallic_roughness_texture; use.texture) {
-        const glm::vec4 texel = use.texture->sample(use.transform.apply(uv[use.transform.uv_set]));
+    if (const ReferenceTexture* texture = material.metallic_roughness_texture.texture) {
+        const glm::vec4 texel = texture->sample(metallic_roughness_taps);
         s.metallic *= texel.b;
         s.roughness *= texel.g;
     }

@@ -6,6 +6,7 @@
 
 #include <embree3/rtcore.h>
 #include <memory>
+#include <tbb/cache_aligned_allocator.h>
 
 namespace bounce {
 
@@ -57,7 +58,8 @@ class TraceGeometry {
     Surface surface(const Hit& hit, const glm::vec3& ray_direction) const;
 
     struct Geometry {
-        std::vector<Vertex> vertices; ///< world space
+        /// World space. A vertex is as long as a cache line and lies on one.
+        std::vector<Vertex, tbb::cache_aligned_allocator<Vertex>> vertices;
         std::vector<uint32_t> indices;
         int material = 0;
         bool vertex_colours = false;
@@ -85,6 +87,8 @@ class TraceGeometry {
         glm::vec3 emission;
         float metallic, roughness, normal_scale, alpha_cutoff;
         bool alpha_mask, emissive;
+        /// Whether the texture's taps are the base colour's: one set of them then serves all.
+        bool shared_metallic_roughness = false, shared_normal = false;
         TextureUse base_colour_texture, metallic_roughness_texture, normal_texture, emission_texture;
     };
     struct Corners {

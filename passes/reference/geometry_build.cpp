@@ -56,6 +56,13 @@ void TraceGeometry::add_material(const Material& material, bool normal_maps) {
     out.metallic_roughness_texture = texture_use(material.metallic_roughness_texture);
     if (normal_maps) out.normal_texture = texture_use(material.normal_texture);
     out.emission_texture = texture_use(material.emission_texture);
+    auto shared = [&](const TextureUse& use) {
+        const TextureUse& base = out.base_colour_texture;
+        return use.texture && base.texture && use.texture->same_layout(*base.texture) &&
+               use.transform.same(base.transform);
+    };
+    out.shared_metallic_roughness = shared(out.metallic_roughness_texture);
+    out.shared_normal = shared(out.normal_texture);
     materials_.push_back(out);
 }
 

@@ -90,7 +90,8 @@ bool ReferenceRender::render_to(int samples) {
     }
     done_ = 0;
     planned_ = planned;
-    tbb::task_arena arena(settings_.threads > 0 ? settings_.threads : tbb::task_arena::automatic);
+    const int most = tbb::this_task_arena::max_concurrency(); // more than there are would only draw a warning
+    tbb::task_arena arena(settings_.threads > 0 ? std::min(settings_.threads, most) : most);
     arena.execute([&] {
         tbb::parallel_for(
             tbb::blocked_range<size_t>(0, tiles_.size(), 1),

@@ -49,14 +49,17 @@ Surroundings look_from_middle(const OccupancyGrid& grid) {
     const glm::vec3 shares[] = {
         {0.5f, 0.5f, 0.5f}, {0.5f, 0.3f, 0.5f}, {0.35f, 0.6f, 0.6f}, {0.65f, 0.6f, 0.4f}, {0.5f, 0.7f, 0.5f}};
     Surroundings mean;
+    int indoors = 0;
     for (const glm::vec3& share : shares) {
         Surroundings seen = look_around(grid, grid.bounds().min + share * grid.bounds().size());
         mean.front += seen.front / 5;
         mean.open += seen.open / 5;
-        mean.sky += seen.sky / 5;
+        // A point above a low roof sees the sky and says nothing about the rooms below.
+        if (seen.front > 0.5f) mean.sky += seen.sky, ++indoors;
         mean.open_direction += seen.open_direction * seen.open / 5.0f;
     }
     if (mean.open > 0) mean.open_direction /= mean.open;
+    if (indoors > 0) mean.sky /= float(indoors);
     return mean;
 }
 

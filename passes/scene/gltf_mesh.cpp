@@ -78,6 +78,8 @@ class MeshReader {
         size_t count = source_.model.accessors[size_t(attributes.at("POSITION"))].count;
         spend(count, at);
         std::vector<Vertex> vertices(count);
+        for (Vertex& v : vertices)
+            v.tangent = glm::vec4(0, 0, 0, 1); // none yet: finish_tangents finds one
         auto each = [&](const char* name, int fewest, int most, auto&& set) {
             std::vector<glm::vec4> values = attribute(attributes, name, at, count, fewest, most);
             for (size_t i = 0; i < values.size(); ++i)

@@ -94,12 +94,15 @@ TEST(Accessor, NormalisedIntegers) {
 
 TEST(Accessor, NormalisedSignedIntegersAreClampedAtMinusOne) {
     GltfBuilder b;
-    int normals = b.accessor(b.view(bytes_of<int8_t>({0, 0, 127, 0, 0, -128, 0, 0, 127, 0, 0, 0}), 4), i8, "VEC3", 3);
-    b.root["accessors"][size_t(normals)]["normalized"] = true;
-    b.triangle({{"attributes", {{"NORMAL", normals}}}});
+    b.root["extensionsUsed"] = {"KHR_mesh_quantization"};
+    int uv = b.accessor(b.view(bytes_of<int8_t>({-128, -127, 0, 0, 127, 0, 0, 0, 64, -64, 0, 0}), 4), i8, "VEC2", 3);
+    b.root["accessors"][size_t(uv)]["normalized"] = true;
+    b.triangle({{"attributes", {{"TEXCOORD_0", uv}}}});
     Scene scene = b.load();
-    EXPECT_EQ(scene.vertices[0].normal, glm::vec3(0, 0, 1));
-    EXPECT_EQ(scene.vertices[1].normal, glm::vec3(-1, 0, 0));
+    EXPECT_EQ(scene.vertices[0].u0, -1);
+    EXPECT_EQ(scene.vertices[0].v0, -1);
+    EXPECT_EQ(scene.vertices[1].u0, 1);
+    EXPECT_FLOAT_EQ(scene.vertices[2].v0, -64.0f / 127);
 }
 
 TEST(Accessor, QuantisedPositions) {

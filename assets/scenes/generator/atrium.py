@@ -8,8 +8,8 @@ from .atrium_plan import (ARCADE, COURT_X, COURT_Z, EAVES, HALL_X, HALL_Z, LOWER
 from .gltf import Gltf
 from .vector import about_axis, looking_along
 
-_SUN_WAY, _SUN, _SUN_COLOUR = (0.40, -1.0, 0.36), 14.0, (1.0, 0.90, 0.74)
-_EYE, _TARGET, _VFOV = (-9.6, 2.0, -1.3), (4.0, 3.7, 0.7), 58.0
+_SUN_WAY, _SUN, _SUN_COLOUR = (0.40, -1.0, 0.26), 9.0, (1.0, 0.90, 0.74)
+_EYE, _TARGET, _VFOV = (-9.4, 2.1, -2.5), (3.0, 3.5, 1.3), 58.0
 
 
 def _materials(gltf):

@@ -122,10 +122,11 @@ def dado():
 
 
 def outer_walls():
-    surface = Surface()
+    """They end a little below the roof's edge."""
+    surface, height = Surface(), TOP - 0.03
     for sign in (1, -1):
-        surface.append(shapes.box((2 * (HALL_X + WALL), TOP, WALL), (0, TOP / 2, sign * (HALL_Z + WALL / 2)), STONE_TILE, without="-y"))
-        surface.append(shapes.box((WALL, TOP, 2 * HALL_Z), (sign * (HALL_X + WALL / 2), TOP / 2, 0), STONE_TILE, without="-y-z+z"))
+        surface.append(shapes.box((2 * (HALL_X + WALL), height, WALL), (0, height / 2, sign * (HALL_Z + WALL / 2)), STONE_TILE, without="-y"))
+        surface.append(shapes.box((WALL, height, 2 * HALL_Z), (sign * (HALL_X + WALL / 2), height / 2, 0), STONE_TILE, without="-y-z+z"))
     return surface
 
 
@@ -176,7 +177,7 @@ def roof():
         def place(reach, y, along, axis=axis, sign=sign):
             return (sign * reach, y, along) if axis == 0 else (along, y, sign * reach)
 
-        inner, outer = EAVES + 0.10, TOP + 0.02
+        inner, outer = EAVES + 0.10, TOP
         slope = normalised((outer - inner, reach_out - reach_in, 0.0))
         normal = (-sign * slope[0], slope[1], 0.0) if axis == 0 else (0.0, slope[1], -sign * slope[0])
         corners = [place(reach_in, inner, -half_in), place(reach_in, inner, half_in), place(reach_out, outer, half_out),

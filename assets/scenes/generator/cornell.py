@@ -66,7 +66,7 @@ _FOCAL_LENGTH, _FILM = 35.0, 25.0
 
 # Just below the middle of the lamp; wide, yet within what one perspective shadow map can hold
 _SPOT = (278, 546.8, 279.5)
-_SPOT_INTENSITY, _SPOT_INNER, _SPOT_OUTER = 100.0, 45.0, 60.0
+_SPOT_INTENSITY, _SPOT_INNER, _SPOT_OUTER = 75.0, 45.0, 60.0
 
 
 def _faces(*quads):

@@ -1,0 +1,88 @@
+// Rays per second of the reference against a bare Embree loop over the very same rays, measured in turns so that both see
+// the same machine. `share` is the ratio. Usage: bounce_benchmark_reference [benchmark options] [SHOT or .gltf …]
+
+#include "core/error.h"
+#include "reference/geometry.h"
+#include "reference/integrator.h"
+#include "reference/render.h"
+
+#include <benchmark/benchmark.h>
+#include <chrono>
+#include <cstdio>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+using namespace bounce;
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Only the calls into Embree, in chunks of the size of the reference's tiles.
+double trace_bare(const TraceGeometry& geometry, const std::vector<TracedRay>& rays) {
+    const auto start = std::chrono::steady_clock::now();
+    tbb::parallel_for(
+        tbb::blocked_range<size_t>(0, rays.size(), 1024),
+        [&](const tbb::blocked_range<size_t>& range) {
+            size_t hits = 0;
+            for (size_t i = range.begin(); i < range.end(); ++i) {
+                const TracedRay& ray = rays[i];
+                hits += ray.shadow ? geometry.occluded(ray.origin, ray.direction, ray.length)
+                                   : geometry.intersect(ray.origin, ray.direction, ray.length).valid();
+            }
+            benchmark::DoNotOptimize(hits);
+        },
+        tbb::simple_partitioner());
+    return seconds_since(start);
+}
+
+void compare(benchmark::State& state, const std::string& name) {
+    Shot shot;
+    try {
+        shot = load_shot(name);
+    } catch (const Error& error) {
+        state.SkipWithError(error.what());
+        return;
+    }
+    shot.width = 480;
+    shot.height = 270;
+    if (shot.scene.lights.empty() && !shot.environment.present()) shot.environment.radiance = glm::vec3(1);
+    ReferenceRender render(shot, {});
+    render.step(1);
+    double reference_seconds = 0, bare_seconds = 0, count = 0;
+    int sample = 1;
+    for (auto _ : state) {
+        const std::vector<TracedRay> rays = render.rays_of_sample(sample);
+        const uint64_t before = render.rays();
+        const auto start = std::chrono::steady_clock::now();
+        render.step(1);
+        const double seconds = seconds_since(start);
+        if (render.rays() - before != rays.size()) state.SkipWithError("the two did not trace the same rays");
+        reference_seconds += seconds;
+        bare_seconds += trace_bare(render.scene().geometry, rays);
+        count += double(rays.size());
+        ++sample;
+        state.SetIterationTime(seconds);
+    }
+    state.counters["rays_per_s"] = count / reference_seconds;
+    state.counters["bare_rays_per_s"] = count / bare_seconds;
+    state.counters["share"] = bare_seconds / reference_seconds;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    std::vector<std::string> names(argv + 1, argv + argc);
+    if (names.empty()) names = {"sponza", "sibenik", "cornell", "atrium"};
+    for (const std::string& name : names) {
+        benchmark::RegisterBenchmark(name.c_str(), compare, name)
+            ->UseManualTime()
+            ->Unit(benchmark::kMillisecond)
+            ->Iterations(8);
+    }
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}
