@@ -34,7 +34,8 @@ std::string picture_metadata(const Session& session, const std::string& resource
     json["time"] = session.time();
     json["camera"] = nlohmann::ordered_json::parse(camera_json(session.camera()));
     nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
-    for (const auto& [name, text] : session.changed_parameters(ParameterOrigin::graph)) parameters[name] = text;
+    for (const auto& [name, text] : session.changed_parameters(ParameterOrigin::graph))
+        parameters[name] = text;
     json["parameters"] = parameters;
     json["renderer"] = gl_text(GL_RENDERER);
     json["driver"] = gl_text(GL_VERSION);
@@ -56,8 +57,18 @@ Image read_layer(const GpuTexture& texture, int mip, int layer) {
 static Image without_alpha(const Image& image) {
     if (image.channels != 4) return image;
     Image out(image.width, image.height, 3);
-    for (size_t i = 0; i < size_t(image.width) * image.height; ++i) std::copy_n(&image.pixels[4 * i], 3, &out.pixels[3 * i]);
+    for (size_t i = 0; i < size_t(image.width) * image.height; ++i)
+        std::copy_n(&image.pixels[4 * i], 3, &out.pixels[3 * i]);
     return out;
+}
+
+LayeredImage read_parts(const Session& session) {
+    LayeredImage parts;
+    for (const PlanResource& known : session.graph().plan().resources) {
+        bool part = known.name().starts_with("out.") && known.name() != "out.display" && !known.is_buffer();
+        if (part) parts.layers[known.name()] = without_alpha(read_layer(*session.graph().texture(known.name())));
+    }
+    return parts;
 }
 
 static Image8 to_display(const Image& image, bool encoded) {
@@ -85,13 +96,14 @@ static const GpuTexture& find_texture(const Session& session, const std::string&
         for (const auto& program : node->programs) {
             for (const ShaderSlot& slot : program->slots()) {
                 if (slot.writes && slot.name == resource) {
-                    throw Error(fmt::format("graph '{}' does not make '{}' here: pass '{}' declined ({})", session.options().graph,
-                                            resource, declined.id, declined.reason));
+                    throw Error(fmt::format("graph '{}' does not make '{}' here: pass '{}' declined ({})",
+                                            session.options().graph, resource, declined.id, declined.reason));
                 }
             }
         }
     }
-    throw Error(fmt::format("graph '{}' makes no texture '{}'{}", session.options().graph, resource, did_you_mean(resource, names)));
+    throw Error(fmt::format("graph '{}' makes no texture '{}'{}", session.options().graph, resource,
+                            did_you_mean(resource, names)));
 }
 
 void check_output_path(const fs::path& path) {
@@ -100,7 +112,8 @@ void check_output_path(const fs::path& path) {
         throw Error(fmt::format("'{}': pictures are written as .exr or .png", path.string()));
     }
     fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
-    if (!fs::is_directory(folder)) throw Error(fmt::format("'{}': there is no folder '{}'", path.string(), folder.string()));
+    if (!fs::is_directory(folder))
+        throw Error(fmt::format("'{}': there is no folder '{}'", path.string(), folder.string()));
 }
 
 void write_picture(const Session& session, const fs::path& path, const std::string& resource) {
@@ -114,15 +127,13 @@ void write_picture(const Session& session, const fs::path& path, const std::stri
     LayeredImage image;
     image.metadata = picture_metadata(session, resource);
     if (resource.empty()) {
-        for (const PlanResource& known : session.graph().plan().resources) {
-            bool part = known.name().starts_with("out.") && known.name() != "out.display" && !known.is_buffer();
-            if (part) image.layers[known.name()] = without_alpha(read_layer(*session.graph().texture(known.name())));
-        }
+        image.layers = read_parts(session).layers;
         if (image.layers.empty()) throw Error("graph '" + session.options().graph + "' makes no out.* part to write");
     } else {
         const GpuTexture& texture = find_texture(session, resource);
         const TextureDesc& desc = texture.desc();
-        if (desc.size.z == 1) image.layers[resource] = read_layer(texture);
+        if (desc.size.z == 1)
+            image.layers[resource] = read_layer(texture);
         else {
             std::vector<float> all = texture.read(0);
             int channels = format_by_enum(desc.format).channels;

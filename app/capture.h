@@ -15,9 +15,12 @@ std::string picture_metadata(const Session& session, const std::string& resource
 /// One 2D layer of a texture as floats.
 Image read_layer(const GpuTexture& texture, int mip = 0, int layer = 0);
 
+/// Every out.* part of the present picture but the display: three channels each, one for occlusion.
+LayeredImage read_parts(const Session& session);
+
 /// Writes the session's present picture. `.exr`: every out.* part as a named layer (or the one resource, each layer or
-/// slice of an array as "name.0", …); `.png`: out.display (or the resource, clamped to [0,1] and sRGB-encoded unless it is
-/// 8-bit already). Throws Error (unknown resource with the nearest, unwritable path, other extension).
+/// slice of an array as "name.0", …); `.png`: out.display (or the resource, clamped to [0,1] and sRGB-encoded unless it
+/// is 8-bit already). Throws Error (unknown resource with the nearest, unwritable path, other extension).
 void write_picture(const Session& session, const std::filesystem::path& path, const std::string& resource = "");
 
 /// Refuses an output path that cannot work before anything is computed: its extension and its folder.

@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
     add_info_command(app, chosen);
     add_new_command(app, chosen);
     add_shaders_command(app, chosen);
+    add_chart_command(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp& help) {
@@ -40,7 +41,8 @@ int main(int argc, char** argv) {
     start_log(verbose);
     try {
         if (list_devices) {
-            for (const HeadlessDevice& device : list_headless_devices()) fmt::print("{}: {}\n", device.index, device.name);
+            for (const HeadlessDevice& device : list_headless_devices())
+                fmt::print("{}: {}\n", device.index, device.name);
             return 0;
         }
         return chosen ? chosen() : run_default();

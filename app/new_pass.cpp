@@ -62,15 +62,18 @@ BOUNCE_REGISTER_PASS("@", @_pass, "what this pass computes, in one sentence")
 )";
 
 static std::string filled(std::string text, const std::string& name, const std::string& class_name) {
-    for (size_t at = text.find("@_pass"); at != std::string::npos; at = text.find("@_pass", at)) text.replace(at, 6, class_name);
-    for (size_t at = text.find('@'); at != std::string::npos; at = text.find('@', at)) text.replace(at, 1, name);
+    for (size_t at = text.find("@_pass"); at != std::string::npos; at = text.find("@_pass", at))
+        text.replace(at, 6, class_name);
+    for (size_t at = text.find('@'); at != std::string::npos; at = text.find('@', at))
+        text.replace(at, 1, name);
     return text;
 }
 
 std::string write_new_pass(const NewPass& request) {
     const std::string& name = request.name;
     if (!std::regex_match(name, std::regex("[a-z][a-z0-9]*"))) {
-        throw Error("'" + name + "' is no name for a pass: it is lower case letters and digits, as 'edges' "
+        throw Error("'" + name +
+                    "' is no name for a pass: it is lower case letters and digits, as 'edges' "
                     "(it also names the group of its resources)");
     }
     fs::path shader = glsl_folder() / "user" / (name + ".comp");
@@ -112,8 +115,8 @@ std::string write_new_pass(const NewPass& request) {
     }
     write_file_atomically(graph_path, json.dump(2) + "\n");
     done += fmt::format("added '{}' to {}\n", name, graph_path.string());
-    done += fmt::format("look at it:  bounce render {} --graph {} --resource {}.result -o {}.png{}\n", "cornell", graph.name, name,
-                        name, request.cpp ? "   (after building)" : "");
+    done += fmt::format("look at it:  bounce render {} --graph {} --resource {}.result -o {}.png{}\n", "cornell",
+                        graph.name, name, name, request.cpp ? "   (after building)" : "");
     return done;
 }
 

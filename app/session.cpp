@@ -137,12 +137,14 @@ std::vector<std::pair<std::string, std::string>> Session::changed_parameters(Par
         }
     };
     add("graph", graph_->model().graph_parameters());
-    for (const auto& node : graph_->model().nodes()) add(node->id(), node->parameters);
+    for (const auto& node : graph_->model().nodes())
+        add(node->id(), node->parameters);
     return changed;
 }
 
 std::string Session::command_line(const std::string& output) const {
-    std::string text = fmt::format("bounce render {} --graph {} --size {}x{}", options_.shot, options_.graph, size_.x, size_.y);
+    std::string text =
+        fmt::format("bounce render {} --graph {} --size {}x{}", options_.shot, options_.graph, size_.x, size_.y);
     if (frame_ > 0) text += fmt::format(" --frames {}", frame_ + 1);
     // What the graph file sets is part of the graph; values put back to their default by a person are not.
     auto add = [&](const std::string& id, const ParameterSet& set) {
@@ -153,13 +155,15 @@ std::string Session::command_line(const std::string& output) const {
         }
     };
     add("graph", graph_->model().graph_parameters());
-    for (const auto& node : graph_->model().nodes()) add(node->id(), node->parameters);
+    for (const auto& node : graph_->model().nodes())
+        add(node->id(), node->parameters);
     return text + " -o " + output;
 }
 
 void Session::release_gpu() {
     kept_parameters_.clear();
-    for (const auto& changed : changed_parameters(ParameterOrigin::command_line)) kept_parameters_.push_back(changed);
+    for (const auto& changed : changed_parameters(ParameterOrigin::command_line))
+        kept_parameters_.push_back(changed);
     suspects_ = graph_->newest_program_files();
     graph_.reset();
     gpu_scene_.reset();
@@ -167,7 +171,8 @@ void Session::release_gpu() {
 
 void Session::restore_gpu() {
     graph_ = std::make_unique<Graph>(find_graph(options_.graph), timer_mode_);
-    for (const auto& [name, text] : kept_parameters_) graph_->model().set(name, text, ParameterOrigin::panel);
+    for (const auto& [name, text] : kept_parameters_)
+        graph_->model().set(name, text, ParameterOrigin::panel);
     load_scene_to_gpu();
     graph_->prepare(facts_, size_);
     graph_->disable_programs(suspects_);

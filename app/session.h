@@ -30,8 +30,8 @@ class Session {
     ~Session();
 
     // --- what is shown ---
-    void open_shot(const std::string& name);   ///< throws Error; the old shot then stays
-    void open_graph(const std::string& name);  ///< likewise; values that a person set are kept where they fit
+    void open_shot(const std::string& name);  ///< throws Error; the old shot then stays
+    void open_graph(const std::string& name); ///< likewise; values that a person set are kept where they fit
     Shot& shot() { return *shot_; }
     const Shot& shot() const { return *shot_; }
     const SceneFacts& facts() const { return facts_; }
@@ -45,7 +45,7 @@ class Session {
 
     // --- time ---
     int frame() const { return frame_; }
-    void set_frame(int frame);                 ///< frames back, and jumps, void history
+    void set_frame(int frame); ///< frames back, and jumps, void history
     void advance() { ++frame_; }
     float time() const { return shot_->time_at(frame_); }
 

@@ -28,10 +28,12 @@ std::string timing_table(const Session& session) {
         out += fmt::format("{:<24} {:>10.3f} {:>8.3f} … {:>7.3f} {:>10.2f}\n", pass.id, t.median, t.low, t.high,
                            mib(bytes_of_pass(graph.plan(), pass.id)));
     }
-    out += fmt::format("{:<24} {:>10.3f} {:>18} {:>10.2f}\n", "all passes", graph.frame_ms(), "", mib(graph.plan().total_bytes()));
+    out += fmt::format("{:<24} {:>10.3f} {:>18} {:>10.2f}\n", "all passes", graph.frame_ms(), "",
+                       mib(graph.plan().total_bytes()));
     out += fmt::format("{:<24} {:>10} {:>18} {:>10.2f}\n", "scene (geometry, textures)", "", "",
                        mib(session.gpu_scene().geometry_bytes() + session.gpu_scene().texture_bytes()));
-    for (const PlanDecline& declined : graph.plan().declined) out += fmt::format("{}: not run, {}\n", declined.id, declined.reason);
+    for (const PlanDecline& declined : graph.plan().declined)
+        out += fmt::format("{}: not run, {}\n", declined.id, declined.reason);
     return out;
 }
 
@@ -41,13 +43,19 @@ void write_timings(const Session& session, const std::filesystem::path& path) {
     json["passes"] = nlohmann::ordered_json::array();
     for (const PlanPass& pass : graph.plan().passes) {
         PassTiming t = graph.timing(pass.id);
-        json["passes"].push_back({{"id", pass.id}, {"median_ms", t.median}, {"p10_ms", t.low}, {"p90_ms", t.high},
-                                  {"frames", t.samples}, {"bytes", bytes_of_pass(graph.plan(), pass.id)}});
+        json["passes"].push_back({{"id", pass.id},
+                                  {"median_ms", t.median},
+                                  {"p10_ms", t.low},
+                                  {"p90_ms", t.high},
+                                  {"frames", t.samples},
+                                  {"bytes", bytes_of_pass(graph.plan(), pass.id)}});
     }
     json["declined"] = nlohmann::ordered_json::array();
-    for (const PlanDecline& d : graph.plan().declined) json["declined"].push_back({{"id", d.id}, {"reason", d.reason}});
+    for (const PlanDecline& d : graph.plan().declined)
+        json["declined"].push_back({{"id", d.id}, {"reason", d.reason}});
     json["resources"] = nlohmann::ordered_json::object();
-    for (const PlanResource& r : graph.plan().resources) json["resources"][r.name()] = r.total_bytes();
+    for (const PlanResource& r : graph.plan().resources)
+        json["resources"][r.name()] = r.total_bytes();
     json["total_ms"] = graph.frame_ms();
     json["total_bytes"] = graph.plan().total_bytes();
     write_file_atomically(path, json.dump(2) + "\n");

@@ -17,6 +17,7 @@ void add_params_command(CLI::App& app, CommandFunction& chosen);
 void add_info_command(CLI::App& app, CommandFunction& chosen);
 void add_new_command(CLI::App& app, CommandFunction& chosen);
 void add_shaders_command(CLI::App& app, CommandFunction& chosen);
+void add_chart_command(CLI::App& app, CommandFunction& chosen);
 
 int render_default();
 /// What `bounce` does without arguments: the window where there is a display, else the default shot to a file.

@@ -23,7 +23,8 @@ int print_graph(const GraphArguments& arguments) {
     shared.size = arguments.size;
     SessionOptions options = shared.options();
     GraphModel model(load_graph_file(find_graph(arguments.name)));
-    for (const auto& [name, text] : options.sets) model.set(name, text, ParameterOrigin::command_line);
+    for (const auto& [name, text] : options.sets)
+        model.set(name, text, ParameterOrigin::command_line);
     Shot shot = load_shot(arguments.shot);
     Plan plan = model.plan(shot_facts(shot), options.size.value_or(glm::ivec2(shot.width, shot.height)));
     fmt::print("{}", arguments.graphviz ? plan_graphviz(model, plan) : plan_text(model, plan));
@@ -32,7 +33,8 @@ int print_graph(const GraphArguments& arguments) {
 } // namespace
 
 void add_graph_command(CLI::App& app, CommandFunction& chosen) {
-    auto* command = app.add_subcommand("graph", "print a graph's plan: passes in order, reads and writes, bytes, what declined");
+    auto* command =
+        app.add_subcommand("graph", "print a graph's plan: passes in order, reads and writes, bytes, what declined");
     auto arguments = std::make_shared<GraphArguments>();
     command->add_option("graph", arguments->name, "a graph: name or .json")->required();
     command->add_option("--shot", arguments->shot, "the shot that it is planned for")->capture_default_str();

@@ -9,7 +9,8 @@ namespace bounce {
 void add_new_command(CLI::App& app, CommandFunction& chosen) {
     auto* command = app.add_subcommand("new", "write a working pass to start from");
     command->require_subcommand(1);
-    auto* pass = command->add_subcommand("pass", "a compute shader and its entry in a graph file (and C++, with --cpp)");
+    auto* pass =
+        command->add_subcommand("pass", "a compute shader and its entry in a graph file (and C++, with --cpp)");
     auto request = std::make_shared<NewPass>();
     pass->add_option("name", request->name, "lower case letters, digits and underscores")->required();
     pass->add_option("--graph,-g", request->graph, "the graph file that gets the entry")->capture_default_str();

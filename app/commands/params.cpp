@@ -20,18 +20,23 @@ void print_set(const std::string& id, const ParameterSet& set, bool markdown) {
         std::string name = id + "." + p.info.name, value = to_text(p.info, p.value), range = range_text(p.info);
         std::string unit = p.info.unit.empty() ? "" : " " + p.info.unit;
         std::string help = p.info.help + (p.info.is_static ? " (compiled in)" : "");
-        if (markdown) fmt::print("| `{}` | {} | {}{} | {} |\n", name, value, range, unit, help);
-        else fmt::print("  {:<32} {:<12} {:<24} {}\n", name, value, range + unit, help);
+        if (markdown)
+            fmt::print("| `{}` | {} | {}{} | {} |\n", name, value, range, unit, help);
+        else
+            fmt::print("  {:<32} {:<12} {:<24} {}\n", name, value, range + unit, help);
     }
 }
 
 void print_graph_parameters(const std::filesystem::path& path, bool markdown) {
     GraphModel model(load_graph_file(path));
-    if (markdown) fmt::print("\n### {}\n\n{}\n\n| parameter | value | range, unit | what it is |\n| --- | --- | --- | --- |\n",
-                             model.file().name, model.file().about);
-    else fmt::print("{}: {}\n", model.file().name, model.file().about);
+    if (markdown)
+        fmt::print("\n### {}\n\n{}\n\n| parameter | value | range, unit | what it is |\n| --- | --- | --- | --- |\n",
+                   model.file().name, model.file().about);
+    else
+        fmt::print("{}: {}\n", model.file().name, model.file().about);
     print_set("graph", model.graph_parameters(), markdown);
-    for (const auto& node : model.nodes()) print_set(node->id(), node->parameters, markdown);
+    for (const auto& node : model.nodes())
+        print_set(node->id(), node->parameters, markdown);
 }
 
 int print_params(const ParamsArguments& arguments) {
@@ -44,7 +49,8 @@ int print_params(const ParamsArguments& arguments) {
         if (entry.path().extension() == ".json") graphs.push_back(entry.path());
     }
     std::sort(graphs.begin(), graphs.end());
-    for (const auto& graph : graphs) print_graph_parameters(graph, arguments.markdown);
+    for (const auto& graph : graphs)
+        print_graph_parameters(graph, arguments.markdown);
     return 0;
 }
 } // namespace

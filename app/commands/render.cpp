@@ -42,13 +42,15 @@ std::string numbered(const std::string& pattern, int number) {
 /// Throws when a shader does not compile: headless runs write nothing then.
 void refuse_broken(const Session& session) {
     ErrorList errors;
-    for (const GraphProblem& problem : session.graph().problems()) errors.add(problem.error.text());
+    for (const GraphProblem& problem : session.graph().problems())
+        errors.add(problem.error.text());
     errors.throw_if_any("nothing was written");
 }
 
 int render(const RenderArguments& arguments) {
     check_output_path(arguments.output);
-    if (arguments.frames < 1 || arguments.frames > 1000000) throw Error(fmt::format("--frames {}: it is 1 … 1000000", arguments.frames));
+    if (arguments.frames < 1 || arguments.frames > 1000000)
+        throw Error(fmt::format("--frames {}: it is 1 … 1000000", arguments.frames));
     SessionOptions options = arguments.options();
     HeadlessContext context(arguments.device);
     spdlog::debug("{}", describe(context.capabilities()));
@@ -70,7 +72,8 @@ int render(const RenderArguments& arguments) {
     if (!arguments.timings.empty()) write_timings(session, arguments.timings);
     if (arguments.quiet) return 0;
     fmt::print("{}", timing_table(session));
-    fmt::print("{}\n", every_frame ? fmt::format("{} … {}", numbered(arguments.output, 0), numbered(arguments.output, arguments.frames - 1))
+    fmt::print("{}\n", every_frame ? fmt::format("{} … {}", numbered(arguments.output, 0),
+                                                 numbered(arguments.output, arguments.frames - 1))
                                    : arguments.output);
     return 0;
 }
@@ -81,11 +84,16 @@ void add_render_command(CLI::App& app, CommandFunction& chosen) {
     auto* command = app.add_subcommand("render", "render a shot to a file, without a window");
     auto arguments = std::make_shared<RenderArguments>();
     arguments->add_to(*command, true);
-    command->add_option("-o,--output", arguments->output, "x.exr (linear parts), x.png (display); %04d numbers every frame")->required();
-    command->add_option("--frames", arguments->frames, "render so many frames; the last is written, or all where the name holds %04d");
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "x.exr (linear parts), x.png (display); %04d numbers every frame")
+        ->required();
+    command->add_option("--frames", arguments->frames,
+                        "render so many frames; the last is written, or all where the name holds %04d");
     command->add_option("--resource", arguments->resource, "write this one resource (gbuffer.normal …)");
     command->add_option("--timings", arguments->timings, "write GPU times and bytes per pass to this .json");
-    command->add_flag("--watch", arguments->watch, "reload graph and shaders between frames; errors keep the last good ones");
+    command->add_flag("--watch", arguments->watch,
+                      "reload graph and shaders between frames; errors keep the last good ones");
     command->add_flag("--quiet,-q", arguments->quiet, "print no table");
     command->callback([arguments, &chosen] { chosen = [arguments] { return render(*arguments); }; });
 }

@@ -11,7 +11,8 @@ void SessionArguments::add_to(CLI::App& command, bool shot_required) {
     auto* shot_option = command.add_option("shot", shot, "a shot (name or .json), or a scene (.gltf, .glb)");
     if (shot_required) shot_option->required();
     command.add_option("--graph,-g", graph, "a graph: name or .json")->capture_default_str();
-    command.add_option("--set", sets, "a parameter: pass.name=value (repeatable; `bounce params` lists them)")->allow_extra_args(false);
+    command.add_option("--set", sets, "a parameter: pass.name=value (repeatable; `bounce params` lists them)")
+        ->allow_extra_args(false);
     command.add_option("--size", size, "WxH instead of the shot's size");
     command.add_option("--device", device, "which EGL device (see --list-devices)");
     command.add_flag("--check-nan", check_nan, "look for values that are not finite after every pass");
@@ -32,7 +33,8 @@ SessionOptions SessionArguments::options() const {
     if (!size.empty()) {
         static const std::regex form("([0-9]{1,5})x([0-9]{1,5})");
         std::smatch match;
-        if (!std::regex_match(size, match, form)) throw Error(fmt::format("--size {}: it is written WxH, as 1280x720", size));
+        if (!std::regex_match(size, match, form))
+            throw Error(fmt::format("--size {}: it is written WxH, as 1280x720", size));
         glm::ivec2 pixels(std::stoi(match[1]), std::stoi(match[2]));
         if (pixels.x < 1 || pixels.y < 1 || pixels.x > 16384 || pixels.y > 16384) {
             throw Error(fmt::format("--size {}: each side is 1 … 16384", size));

@@ -13,13 +13,14 @@ namespace bounce {
 namespace {
 namespace fs = std::filesystem;
 
-/// Formats as the file's resources and the passes' declarations have them do not matter to a compiler's judgement of the
-/// rest, but the layout qualifier must be one that goes with the image's type.
+/// Formats as the file's resources and the passes' declarations have them do not matter to a compiler's judgement of
+/// the rest, but the layout qualifier must be one that goes with the image's type.
 Defines formats_for(const Program& program) {
     Defines formats;
     for (const ShaderSlot& slot : program.slots()) {
         if (slot.kind != SlotKind::image) continue;
-        bool integer = slot.type.starts_with("u"), is_signed = slot.type.starts_with("i") && !slot.type.starts_with("image");
+        bool integer = slot.type.starts_with("u"),
+             is_signed = slot.type.starts_with("i") && !slot.type.starts_with("image");
         formats["FORMAT_" + slot.identifier] = integer ? "r32ui" : is_signed ? "r32i" : "rgba16f";
     }
     return formats;

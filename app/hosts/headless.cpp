@@ -15,7 +15,8 @@ namespace bounce {
 
 namespace {
 
-template <typename T> T function(const char* name) {
+template <typename T>
+T function(const char* name) {
     return reinterpret_cast<T>(eglGetProcAddress(name));
 }
 
@@ -46,7 +47,8 @@ HeadlessDevice describe_device(EGLDeviceEXT device, int index) {
     if (!query) return out;
     const char* extensions = query(device, EGL_EXTENSIONS);
     out.software = has_word(extensions, "EGL_MESA_device_software");
-    if (out.software) out.name = "software";
+    if (out.software)
+        out.name = "software";
     else if (has_word(extensions, "EGL_EXT_device_drm")) {
         if (const char* file = query(device, EGL_DRM_DEVICE_FILE_EXT)) out.name = file;
     }
@@ -79,12 +81,14 @@ struct HeadlessContext::Egl {
         display = candidate;
         eglBindAPI(EGL_OPENGL_API);
         for (bool robust : {true, false}) {
-            std::vector<EGLint> attributes = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 6,
+            std::vector<EGLint> attributes = {EGL_CONTEXT_MAJOR_VERSION,       4,
+                                              EGL_CONTEXT_MINOR_VERSION,       6,
                                               EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                              EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE};
+                                              EGL_CONTEXT_OPENGL_DEBUG,        EGL_TRUE};
             if (robust) {
-                attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE,
-                                                     EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
+                attributes.insert(attributes.end(),
+                                  {EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE,
+                                   EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
             }
             attributes.push_back(EGL_NONE);
             context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
@@ -94,7 +98,8 @@ struct HeadlessContext::Egl {
             gladLoadGL(eglGetProcAddress)) {
             return {};
         }
-        std::string why = context == EGL_NO_CONTEXT ? "no OpenGL 4.6 core context" : "the context cannot be made current without a surface";
+        std::string why = context == EGL_NO_CONTEXT ? "no OpenGL 4.6 core context"
+                                                    : "the context cannot be made current without a surface";
         close();
         return why;
     }
@@ -104,7 +109,8 @@ std::vector<HeadlessDevice> list_headless_devices() {
     ask_mesa_for_46();
     std::vector<HeadlessDevice> out;
     int index = 0;
-    for (EGLDeviceEXT device : devices()) out.push_back(describe_device(device, index++));
+    for (EGLDeviceEXT device : devices())
+        out.push_back(describe_device(device, index++));
     return out;
 }
 
@@ -130,7 +136,9 @@ HeadlessContext::HeadlessContext(int wanted) : egl_(std::make_unique<Egl>()) {
         open = why.empty();
         if (!open) reasons += "\n  surfaceless: " + why;
     }
-    if (!open) throw Error("no OpenGL 4.6 context could be made without a window:" + (reasons.empty() ? " EGL has no devices" : reasons));
+    if (!open)
+        throw Error("no OpenGL 4.6 context could be made without a window:" +
+                    (reasons.empty() ? " EGL has no devices" : reasons));
     capabilities_ = start_context();
 }
 

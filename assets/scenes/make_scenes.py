@@ -3,8 +3,8 @@
 
     make_scenes.py [--check] [NAME ...]
 
-Without names: all of them. --check makes them in memory, compares them with the files beside this script, and ends with 1
-and a list when any differs. Python's standard library is all it needs.
+Without names: all of them. --check makes them in memory, compares them with the files beside this script, and ends
+with 1 and a list when any differs. Python's standard library is all it needs.
 """
 
 import argparse
@@ -41,7 +41,8 @@ def main():
     arguments = parser.parse_args()
     unknown = [name for name in arguments.names if name not in SCENES]
     if unknown:
-        print("make_scenes: no scene named %s; there are: %s" % (", ".join(unknown), ", ".join(SCENES)), file=sys.stderr)
+        print("make_scenes: no scene named %s; there are: %s" % (", ".join(unknown), ", ".join(SCENES)),
+              file=sys.stderr)
         return 2
 
     different = []

@@ -44,6 +44,8 @@ void write_exr(const std::filesystem::path& path, const LayeredImage& image);
 /// Throws Error when the file is missing, damaged or not an EXR.
 LayeredImage read_exr(const std::filesystem::path& path);
 
+/// The bytes of a PNG file. Throws Error when the image has no pixels.
+std::string encode_png(const Image8& image);
 void write_png(const std::filesystem::path& path, const Image8& image);
 /// PNG, JPEG, BMP, TGA … (what stb_image reads). Throws Error.
 Image8 read_image8(const std::filesystem::path& path);

@@ -62,16 +62,26 @@ Image read_hdr(const std::filesystem::path& path) {
     return image;
 }
 
-void write_png(const std::filesystem::path& path, const Image8& image) {
+std::string encode_png(const Image8& image) {
     if (image.width <= 0 || image.height <= 0 || image.rgba.size() != size_t(image.width) * image.height * 4) {
-        throw Error("cannot write '" + path.string() + "': the image has no pixels, or not width x height of them");
+        throw Error("cannot encode a PNG: the image has no pixels, or not width x height of them");
     }
     std::string bytes;
     auto append = [](void* context, void* data, int size) {
         static_cast<std::string*>(context)->append(static_cast<const char*>(data), size_t(size));
     };
     if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, 4, image.rgba.data(), image.width * 4)) {
-        throw Error("cannot write '" + path.string() + "': the PNG could not be encoded");
+        throw Error("the PNG could not be encoded");
+    }
+    return bytes;
+}
+
+void write_png(const std::filesystem::path& path, const Image8& image) {
+    std::string bytes;
+    try {
+        bytes = encode_png(image);
+    } catch (const Error& error) {
+        throw Error("cannot write '" + path.string() + "': " + error.what());
     }
     write_file_atomically(path, bytes);
 }

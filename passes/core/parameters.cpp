@@ -13,21 +13,29 @@ namespace bounce {
 
 const char* to_string(ParameterOrigin origin) {
     switch (origin) {
-    case ParameterOrigin::default_value: return "default";
-    case ParameterOrigin::graph: return "graph";
-    case ParameterOrigin::command_line: return "command line";
-    case ParameterOrigin::panel: return "panel";
+    case ParameterOrigin::default_value:
+        return "default";
+    case ParameterOrigin::graph:
+        return "graph";
+    case ParameterOrigin::command_line:
+        return "command line";
+    case ParameterOrigin::panel:
+        return "panel";
     }
     return "";
 }
 
 static int component_count(ParameterKind kind) {
     switch (kind) {
-    case ParameterKind::vec2: return 2;
+    case ParameterKind::vec2:
+        return 2;
     case ParameterKind::vec3:
-    case ParameterKind::colour: return 3;
-    case ParameterKind::vec4: return 4;
-    default: return 1;
+    case ParameterKind::colour:
+        return 3;
+    case ParameterKind::vec4:
+        return 4;
+    default:
+        return 1;
     }
 }
 
@@ -35,10 +43,12 @@ static std::vector<double> components(const ParameterValue& value) {
     return std::visit(
         [](const auto& v) -> std::vector<double> {
             using T = std::decay_t<decltype(v)>;
-            if constexpr (std::is_arithmetic_v<T>) return {double(v)};
+            if constexpr (std::is_arithmetic_v<T>)
+                return {double(v)};
             else {
                 std::vector<double> parts;
-                for (int i = 0; i < v.length(); ++i) parts.push_back(v[i]);
+                for (int i = 0; i < v.length(); ++i)
+                    parts.push_back(v[i]);
                 return parts;
             }
         },
@@ -47,14 +57,20 @@ static std::vector<double> components(const ParameterValue& value) {
 
 static ParameterValue from_components(ParameterKind kind, const std::vector<double>& c) {
     switch (kind) {
-    case ParameterKind::boolean: return c[0] != 0;
+    case ParameterKind::boolean:
+        return c[0] != 0;
     case ParameterKind::integer:
-    case ParameterKind::enumeration: return int(c[0]);
-    case ParameterKind::real: return float(c[0]);
-    case ParameterKind::vec2: return glm::vec2(c[0], c[1]);
+    case ParameterKind::enumeration:
+        return int(c[0]);
+    case ParameterKind::real:
+        return float(c[0]);
+    case ParameterKind::vec2:
+        return glm::vec2(c[0], c[1]);
     case ParameterKind::vec3:
-    case ParameterKind::colour: return glm::vec3(c[0], c[1], c[2]);
-    case ParameterKind::vec4: return glm::vec4(c[0], c[1], c[2], c[3]);
+    case ParameterKind::colour:
+        return glm::vec3(c[0], c[1], c[2]);
+    case ParameterKind::vec4:
+        return glm::vec4(c[0], c[1], c[2], c[3]);
     }
     return 0.0f;
 }
@@ -66,9 +82,9 @@ std::string range_text(const ParameterInfo& info) {
 }
 
 static std::string expectation(const ParameterInfo& info) {
-    static const char* const names[] = {"true or false",     "a whole number",    "one of", "a number",
-                                        "two numbers (x,y)", "three numbers (x,y,z)", "four numbers (x,y,z,w)",
-                                        "a colour (r,g,b)"};
+    static const char* const names[] = {
+        "true or false",         "a whole number",         "one of",          "a number", "two numbers (x,y)",
+        "three numbers (x,y,z)", "four numbers (x,y,z,w)", "a colour (r,g,b)"};
     std::string range = range_text(info);
     return std::string(names[int(info.kind)]) + (range.empty() ? "" : " " + range);
 }
@@ -95,20 +111,26 @@ std::string to_text(const ParameterInfo& info, const ParameterValue& value) {
     }
     if (info.kind == ParameterKind::integer) return std::to_string(std::get<int>(value));
     std::vector<std::string> parts;
-    for (double c : components(value)) parts.push_back(fmt::format("{}", float(c)));
+    for (double c : components(value))
+        parts.push_back(fmt::format("{}", float(c)));
     return join(parts, ",");
 }
 
 nlohmann::json to_json(const ParameterInfo& info, const ParameterValue& value) {
     switch (info.kind) {
-    case ParameterKind::boolean: return std::get<bool>(value);
-    case ParameterKind::integer: return std::get<int>(value);
-    case ParameterKind::enumeration: return to_text(info, value);
-    default: break;
+    case ParameterKind::boolean:
+        return std::get<bool>(value);
+    case ParameterKind::integer:
+        return std::get<int>(value);
+    case ParameterKind::enumeration:
+        return to_text(info, value);
+    default:
+        break;
     }
     nlohmann::json array = nlohmann::json::array();
     // The shortest decimal that reads back as the same float, so files hold 0.1 and not 0.10000000149.
-    for (double c : components(value)) array.push_back(nlohmann::json::parse(fmt::format("{}", float(c))));
+    for (double c : components(value))
+        array.push_back(nlohmann::json::parse(fmt::format("{}", float(c))));
     return array.size() == 1 ? array[0] : array;
 }
 
@@ -130,8 +152,8 @@ ParameterValue parse_value(const ParameterInfo& info, std::string_view text) {
         for (size_t i = 0; i < info.choices.size(); ++i) {
             if (info.choices[i] == text) return int(i);
         }
-        throw Error(fmt::format("'{}' is not a choice of parameter '{}'{}", text, info.name,
-                                did_you_mean(text, info.choices)));
+        throw Error(
+            fmt::format("'{}' is not a choice of parameter '{}'{}", text, info.name, did_you_mean(text, info.choices)));
     }
     std::vector<double> numbers;
     for (const std::string& part : split(text, ',')) {
@@ -142,7 +164,8 @@ ParameterValue parse_value(const ParameterInfo& info, std::string_view text) {
     size_t wanted = component_count(info.kind);
     if (numbers.size() == 1 && wanted > 1) numbers.resize(wanted, numbers[0]);
     if (numbers.size() != wanted) fail(info, text);
-    if (info.kind == ParameterKind::integer && (numbers[0] != std::floor(numbers[0]) || std::abs(numbers[0]) > 2147483647.0)) {
+    if (info.kind == ParameterKind::integer &&
+        (numbers[0] != std::floor(numbers[0]) || std::abs(numbers[0]) > 2147483647.0)) {
         fail(info, text);
     }
     ParameterValue value = from_components(info.kind, numbers);
@@ -156,12 +179,14 @@ ParameterValue parse_value(const ParameterInfo& info, const nlohmann::json& json
     bool numeric = json.is_number() && info.kind != ParameterKind::boolean && info.kind != ParameterKind::enumeration;
     if (json.is_array()) {
         numeric = component_count(info.kind) > 1;
-        for (const auto& element : json) numeric = numeric && element.is_number();
+        for (const auto& element : json)
+            numeric = numeric && element.is_number();
     }
     if (!numeric) fail(info, json.dump());
     std::string text;
     if (json.is_array()) {
-        for (const auto& element : json) text += (text.empty() ? "" : ",") + element.dump();
+        for (const auto& element : json)
+            text += (text.empty() ? "" : ",") + element.dump();
     } else {
         text = json.dump();
     }
@@ -256,7 +281,8 @@ void ParameterSet::adopt(const ParameterSet& old) {
 
 std::vector<std::string> ParameterSet::names() const {
     std::vector<std::string> names;
-    for (const Parameter& parameter : parameters_) names.push_back(parameter.info.name);
+    for (const Parameter& parameter : parameters_)
+        names.push_back(parameter.info.name);
     return names;
 }
 

@@ -40,7 +40,8 @@ struct ParameterInfo {
 /// The value as --set takes it and as graph files may hold it ("0.5", "1,0,0", "true", an enumeration's name).
 std::string to_text(const ParameterInfo& info, const ParameterValue& value);
 nlohmann::json to_json(const ParameterInfo& info, const ParameterValue& value);
-/// Throws Error (what is wrong, what would be right) for a wrong type, a value out of range or not finite, an unknown choice.
+/// Throws Error (what is wrong, what would be right) for a wrong type, a value out of range or not finite, an unknown
+/// choice.
 ParameterValue parse_value(const ParameterInfo& info, std::string_view text);
 ParameterValue parse_value(const ParameterInfo& info, const nlohmann::json& json);
 void check_range(const ParameterInfo& info, const ParameterValue& value);
@@ -108,18 +109,25 @@ class ParameterSet {
     std::vector<std::string> names() const;
 
   private:
-    template <typename T> static constexpr ParameterKind kind_of() {
-        if constexpr (std::is_same_v<T, bool>) return ParameterKind::boolean;
-        else if constexpr (std::is_same_v<T, int>) return ParameterKind::integer;
-        else if constexpr (std::is_same_v<T, float>) return ParameterKind::real;
-        else if constexpr (std::is_same_v<T, glm::vec2>) return ParameterKind::vec2;
-        else if constexpr (std::is_same_v<T, glm::vec3>) return ParameterKind::vec3;
+    template <typename T>
+    static constexpr ParameterKind kind_of() {
+        if constexpr (std::is_same_v<T, bool>)
+            return ParameterKind::boolean;
+        else if constexpr (std::is_same_v<T, int>)
+            return ParameterKind::integer;
+        else if constexpr (std::is_same_v<T, float>)
+            return ParameterKind::real;
+        else if constexpr (std::is_same_v<T, glm::vec2>)
+            return ParameterKind::vec2;
+        else if constexpr (std::is_same_v<T, glm::vec3>)
+            return ParameterKind::vec3;
         else {
             static_assert(std::is_same_v<T, glm::vec4>, "a parameter is a bool, int, float, vec2, vec3 or vec4");
             return ParameterKind::vec4;
         }
     }
-    template <typename T> void bind(ParameterInfo info, T& member) {
+    template <typename T>
+    void bind(ParameterInfo info, T& member) {
         info.default_value = member;
         insert({info, info.default_value, ParameterOrigin::default_value,
                 [&member](const ParameterValue& v) { member = std::get<T>(v); }});
@@ -129,7 +137,8 @@ class ParameterSet {
     std::vector<Parameter> parameters_;
 };
 
-/// Reads one shader line. Returns false when it is no parameter line. Throws Error when a //! uniform line is malformed.
+/// Reads one shader line. Returns false when it is no parameter line. Throws Error when a //! uniform line is
+/// malformed.
 ///   uniform float step_scale = 0.5;  //! [0.1, 2] step length as a share of the cone's diameter
 ///   uniform int occlusion = 0;       //! {shadow_map, ray_hard, ray_soft} how the light is blocked
 ///   uniform int cones = 6;           //! static [1, 32] diffuse cones

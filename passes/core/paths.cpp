@@ -21,11 +21,12 @@ fs::path root_folder() {
     }
     std::error_code ignored;
     fs::path executable = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-    for (const fs::path& candidate : {executable, executable / ".." / "share" / "bounce", fs::path(BOUNCE_SOURCE_DIR)}) {
+    for (const fs::path& candidate :
+         {executable, executable / ".." / "share" / "bounce", fs::path(BOUNCE_SOURCE_DIR)}) {
         if (is_root(candidate)) return fs::weakly_canonical(candidate);
     }
-    throw Error("no glsl/ and assets/ found beside '" + executable.string() + "' nor in '" BOUNCE_SOURCE_DIR
-                "'; set BOUNCE_ROOT to the folder that holds them");
+    throw Error("no glsl/ and assets/ found beside '" + executable.string() +
+                "' nor in '" BOUNCE_SOURCE_DIR "'; set BOUNCE_ROOT to the folder that holds them");
 }
 
 static fs::path user_folder(const char* variable, const char* below_home) {

@@ -115,8 +115,8 @@ Capabilities read_capabilities() {
 }
 
 std::string describe(const Capabilities& caps) {
-    std::string text = fmt::format("renderer: {} ({})\nOpenGL:   {}, GLSL {}\n", caps.renderer, caps.vendor, caps.version,
-                                   caps.glsl_version);
+    std::string text = fmt::format("renderer: {} ({})\nOpenGL:   {}, GLSL {}\n", caps.renderer, caps.vendor,
+                                   caps.version, caps.glsl_version);
     text += "missing:  " + (caps.missing.empty() ? std::string("nothing that Bounce needs") : join(caps.missing, "; "));
     if (!caps.layer_from_vertex_shader) {
         text += "\nabsent:   ARB_shader_viewport_layer_array (a geometry shader chooses the layer instead)";

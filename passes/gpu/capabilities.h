@@ -11,7 +11,7 @@ namespace bounce {
 
 struct Capabilities {
     std::string renderer, vendor, version, glsl_version;
-    std::vector<std::string> missing; ///< needed limits and features that are not there, one line each
+    std::vector<std::string> missing;      ///< needed limits and features that are not there, one line each
     bool layer_from_vertex_shader = false; ///< ARB_shader_viewport_layer_array
     bool anisotropic_filtering = false;
     std::map<std::string, long long> limits; ///< the limits that graphs are checked against, by OpenGL name
@@ -37,9 +37,7 @@ uint64_t high_severity_messages();
 /// A KHR_debug group, for graphics debuggers.
 class DebugGroup {
   public:
-    explicit DebugGroup(const std::string& name) {
-        glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name.c_str());
-    }
+    explicit DebugGroup(const std::string& name) { glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name.c_str()); }
     ~DebugGroup() { glPopDebugGroup(); }
     DebugGroup(const DebugGroup&) = delete;
     DebugGroup& operator=(const DebugGroup&) = delete;

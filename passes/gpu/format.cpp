@@ -53,7 +53,8 @@ const Format& format_by_enum(GLenum internal) {
 
 std::vector<std::string> format_names() {
     std::vector<std::string> names;
-    for (const Format& format : k_formats) names.push_back(format.name);
+    for (const Format& format : k_formats)
+        names.push_back(format.name);
     return names;
 }
 

@@ -10,10 +10,10 @@ namespace bounce {
 enum class FormatClass { floating, normalised, signed_integer, unsigned_integer, depth };
 
 struct Format {
-    const char* name;  ///< "rgba16f"
-    GLenum internal;   ///< GL_RGBA16F
+    const char* name; ///< "rgba16f"
+    GLenum internal;  ///< GL_RGBA16F
     int channels;
-    int bytes;         ///< per texel
+    int bytes; ///< per texel
     FormatClass kind;
     bool image;        ///< may be bound as an image (load/store)
     GLenum transfer;   ///< format for uploads and readback (GL_RGBA, GL_RED_INTEGER …)

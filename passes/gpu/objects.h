@@ -86,7 +86,8 @@ class Buffer {
     void update(uint64_t offset, uint64_t bytes, const void* data) const;
     void clear(uint32_t value = 0) const;
     void read(uint64_t offset, uint64_t bytes, void* out) const;
-    template <typename T> std::vector<T> read_all() const {
+    template <typename T>
+    std::vector<T> read_all() const {
         std::vector<T> values(bytes_ / sizeof(T));
         read(0, values.size() * sizeof(T), values.data());
         return values;
@@ -108,7 +109,8 @@ struct Attachment {
 class Framebuffer {
   public:
     Framebuffer() = default;
-    /// Throws Error when incomplete. `depth.texture` may be null. With no attachments at all, `size` is its default size.
+    /// Throws Error when incomplete. `depth.texture` may be null. With no attachments at all, `size` is its default
+    /// size.
     Framebuffer(const std::vector<Attachment>& colours, Attachment depth, const std::string& name,
                 glm::ivec2 size = {0, 0});
     ~Framebuffer() { destroy(); }

@@ -42,20 +42,28 @@ void Program::scan(const Defines& defines, const Defines& static_values) {
         sources_.push_back(expand_shader(stage, folder_, defines, static_values));
         const ShaderSource& source = sources_.back();
         auto same = [](const auto& i) { return i; };
-        for (const auto& file : source.files) add_once(files_, file, same);
-        for (const auto& file : source.missing) add_once(files_, file, same);
-        for (const auto& parameter : source.parameters) add_once(parameters_, parameter, [](auto& p) { return p.name; });
-        for (const auto& slot : source.slots) add_once(slots_, slot, [](auto& s) { return s.identifier; });
+        for (const auto& file : source.files)
+            add_once(files_, file, same);
+        for (const auto& file : source.missing)
+            add_once(files_, file, same);
+        for (const auto& parameter : source.parameters)
+            add_once(parameters_, parameter, [](auto& p) { return p.name; });
+        for (const auto& slot : source.slots)
+            add_once(slots_, slot, [](auto& s) { return s.identifier; });
         errors_.insert(errors_.end(), source.errors.begin(), source.errors.end());
     }
 }
 
 static GLenum gl_stage(ShaderStage stage) {
     switch (stage) {
-    case ShaderStage::vertex: return GL_VERTEX_SHADER;
-    case ShaderStage::geometry: return GL_GEOMETRY_SHADER;
-    case ShaderStage::fragment: return GL_FRAGMENT_SHADER;
-    case ShaderStage::compute: return GL_COMPUTE_SHADER;
+    case ShaderStage::vertex:
+        return GL_VERTEX_SHADER;
+    case ShaderStage::geometry:
+        return GL_GEOMETRY_SHADER;
+    case ShaderStage::fragment:
+        return GL_FRAGMENT_SHADER;
+    case ShaderStage::compute:
+        return GL_COMPUTE_SHADER;
     }
     return 0;
 }
@@ -89,11 +97,22 @@ static std::string resource_name(GLuint program, GLenum kind, GLuint index) {
 
 static bool is_sampler(GLenum t) {
     switch (t) {
-    case GL_SAMPLER_1D: case GL_SAMPLER_2D: case GL_SAMPLER_3D: case GL_SAMPLER_CUBE: case GL_SAMPLER_2D_ARRAY:
-    case GL_SAMPLER_2D_SHADOW: case GL_SAMPLER_2D_ARRAY_SHADOW: case GL_INT_SAMPLER_2D: case GL_INT_SAMPLER_3D:
-    case GL_INT_SAMPLER_2D_ARRAY: case GL_UNSIGNED_INT_SAMPLER_2D: case GL_UNSIGNED_INT_SAMPLER_3D:
-    case GL_UNSIGNED_INT_SAMPLER_2D_ARRAY: return true;
-    default: return false;
+    case GL_SAMPLER_1D:
+    case GL_SAMPLER_2D:
+    case GL_SAMPLER_3D:
+    case GL_SAMPLER_CUBE:
+    case GL_SAMPLER_2D_ARRAY:
+    case GL_SAMPLER_2D_SHADOW:
+    case GL_SAMPLER_2D_ARRAY_SHADOW:
+    case GL_INT_SAMPLER_2D:
+    case GL_INT_SAMPLER_3D:
+    case GL_INT_SAMPLER_2D_ARRAY:
+    case GL_UNSIGNED_INT_SAMPLER_2D:
+    case GL_UNSIGNED_INT_SAMPLER_3D:
+    case GL_UNSIGNED_INT_SAMPLER_2D_ARRAY:
+        return true;
+    default:
+        return false;
     }
 }
 
@@ -154,7 +173,8 @@ bool Program::build(const std::function<std::vector<std::string>(const ProgramIn
         glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
         if (!good) {
             std::vector<ShaderError> errors = translate_log(shader_log(shader), source, folder_);
-            if (errors.empty()) errors.push_back({stages_.front(), 0, "", "does not compile (the driver does not say why)"});
+            if (errors.empty())
+                errors.push_back({stages_.front(), 0, "", "does not compile (the driver does not say why)"});
             errors_.insert(errors_.end(), errors.begin(), errors.end());
         }
         glAttachShader(program, shader);
@@ -177,7 +197,8 @@ bool Program::build(const std::function<std::vector<std::string>(const ProgramIn
     if (errors_.empty()) {
         found = reflect(program, compute);
         if (check) {
-            for (const std::string& problem : check(found)) errors_.push_back({stages_.front(), 0, "", problem});
+            for (const std::string& problem : check(found))
+                errors_.push_back({stages_.front(), 0, "", problem});
         }
     }
     if (!errors_.empty()) {
@@ -200,12 +221,18 @@ static bool scalar_type(GLenum type) {
 
 bool uniform_takes(GLenum type, const ParameterValue& value) {
     switch (value.index()) {
-    case 0: return type == GL_BOOL || type == GL_INT || type == GL_UNSIGNED_INT;
-    case 1: return scalar_type(type);
-    case 2: return type == GL_FLOAT;
-    case 3: return type == GL_FLOAT_VEC2;
-    case 4: return type == GL_FLOAT_VEC3;
-    case 5: return type == GL_FLOAT_VEC4;
+    case 0:
+        return type == GL_BOOL || type == GL_INT || type == GL_UNSIGNED_INT;
+    case 1:
+        return scalar_type(type);
+    case 2:
+        return type == GL_FLOAT;
+    case 3:
+        return type == GL_FLOAT_VEC2;
+    case 4:
+        return type == GL_FLOAT_VEC3;
+    case 5:
+        return type == GL_FLOAT_VEC4;
     }
     return false;
 }
@@ -213,15 +240,22 @@ bool uniform_takes(GLenum type, const ParameterValue& value) {
 bool set_uniform(GLuint program, const UniformInfo& uniform, const ParameterValue& value) {
     if (!uniform_takes(uniform.type, value)) return false;
     GLint at = uniform.location;
-    if (const auto* v = std::get_if<glm::vec2>(&value)) glProgramUniform2fv(program, at, 1, &v->x);
-    else if (const auto* v3 = std::get_if<glm::vec3>(&value)) glProgramUniform3fv(program, at, 1, &v3->x);
-    else if (const auto* v4 = std::get_if<glm::vec4>(&value)) glProgramUniform4fv(program, at, 1, &v4->x);
-    else if (const auto* f = std::get_if<float>(&value)) glProgramUniform1f(program, at, *f);
+    if (const auto* v = std::get_if<glm::vec2>(&value))
+        glProgramUniform2fv(program, at, 1, &v->x);
+    else if (const auto* v3 = std::get_if<glm::vec3>(&value))
+        glProgramUniform3fv(program, at, 1, &v3->x);
+    else if (const auto* v4 = std::get_if<glm::vec4>(&value))
+        glProgramUniform4fv(program, at, 1, &v4->x);
+    else if (const auto* f = std::get_if<float>(&value))
+        glProgramUniform1f(program, at, *f);
     else {
         int i = std::holds_alternative<bool>(value) ? int(std::get<bool>(value)) : std::get<int>(value);
-        if (uniform.type == GL_FLOAT) glProgramUniform1f(program, at, float(i));
-        else if (uniform.type == GL_UNSIGNED_INT) glProgramUniform1ui(program, at, GLuint(i));
-        else glProgramUniform1i(program, at, i);
+        if (uniform.type == GL_FLOAT)
+            glProgramUniform1f(program, at, float(i));
+        else if (uniform.type == GL_UNSIGNED_INT)
+            glProgramUniform1ui(program, at, GLuint(i));
+        else
+            glProgramUniform1i(program, at, i);
     }
     return true;
 }

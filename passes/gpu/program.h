@@ -44,15 +44,16 @@ class Program {
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
 
-    /// Reads the sources again (no OpenGL). Afterwards parameters(), slots(), files() are those of the files as they are.
+    /// Reads the sources again (no OpenGL). Afterwards parameters(), slots(), files() are those of the files as they
+    /// are.
     void scan(const Defines& defines, const Defines& static_values);
     /// Compiles and links what was scanned; `check` may refuse the interface (it returns what is wrong). On success the
     /// new program replaces the old; on failure the last good one stays and errors() says why. Returns success.
     bool build(const std::function<std::vector<std::string>(const ProgramInterface&)>& check);
 
     const std::string& name() const { return name_; }
-    bool usable() const { return id_ != 0; }       ///< a good program is there (perhaps an older one)
-    bool disabled() const { return disabled_; }    ///< by disable(), until the next successful build
+    bool usable() const { return id_ != 0; }        ///< a good program is there (perhaps an older one)
+    bool disabled() const { return disabled_; }     ///< by disable(), until the next successful build
     bool up_to_date() const { return up_to_date_; } ///< and it is the newest text
     GLuint id() const { return id_; }
     const ProgramInterface& interface() const { return interface_; }

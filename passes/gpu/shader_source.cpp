@@ -60,7 +60,8 @@ class Expander {
         include(file, {});
         std::vector<std::string> head = {"#version 460 core"};
         head.insert(head.end(), extensions_.begin(), extensions_.end());
-        for (const auto& [name, value] : defines_) head.push_back("#define " + name + " " + value);
+        for (const auto& [name, value] : defines_)
+            head.push_back("#define " + name + " " + value);
         std::vector<SourceLocation> lines(head.size());
         lines.insert(lines.end(), out_.lines.begin(), out_.lines.end());
         out_.lines = std::move(lines);
@@ -82,8 +83,10 @@ class Expander {
         } catch (const Error& failure) {
             out_.missing.push_back(normal);
             if (out_.files.empty()) out_.files.push_back(normal);
-            if (from.line) error(folder_ / from.file, from.line, from.source_line, failure.what());
-            else error(normal, 0, "", failure.what());
+            if (from.line)
+                error(folder_ / from.file, from.line, from.source_line, failure.what());
+            else
+                error(normal, 0, "", failure.what());
             return;
         }
         int index = int(out_.files.size());
@@ -117,9 +120,12 @@ class Expander {
             emit(line, file, number);
             return;
         }
-        if (bare.starts_with("#")) take_directive(std::string(trim(bare.substr(1))), line, file, number);
-        else if (!bare.starts_with("//")) take_code(line, file, number);
-        else emit(line, file, number);
+        if (bare.starts_with("#"))
+            take_directive(std::string(trim(bare.substr(1))), line, file, number);
+        else if (!bare.starts_with("//"))
+            take_code(line, file, number);
+        else
+            emit(line, file, number);
     }
 
     void take_directive(const std::string& directive, const std::string& line, int file, int number) {
@@ -251,7 +257,7 @@ class Expander {
     ShaderSource out_;
     std::string body_;
     std::vector<std::string> extensions_;
-    std::set<std::string> seen_;                   ///< names that #define lines so far have defined
+    std::set<std::string> seen_;                  ///< names that #define lines so far have defined
     std::vector<std::optional<bool>> conditions_; ///< of the #if blocks around the present line; empty: unknown
     bool in_comment_ = false;
 };
@@ -261,13 +267,19 @@ class Expander {
 std::string static_literal(const ParameterInfo& info, const ParameterValue& value) {
     std::string text = to_text(info, value);
     switch (info.kind) {
-    case ParameterKind::enumeration: return std::to_string(std::get<int>(value));
-    case ParameterKind::real: return text.find_first_of(".e") == std::string::npos ? "(" + text + ".0)" : "(" + text + ")";
-    case ParameterKind::vec2: return "vec2(" + text + ")";
+    case ParameterKind::enumeration:
+        return std::to_string(std::get<int>(value));
+    case ParameterKind::real:
+        return text.find_first_of(".e") == std::string::npos ? "(" + text + ".0)" : "(" + text + ")";
+    case ParameterKind::vec2:
+        return "vec2(" + text + ")";
     case ParameterKind::vec3:
-    case ParameterKind::colour: return "vec3(" + text + ")";
-    case ParameterKind::vec4: return "vec4(" + text + ")";
-    default: return text;
+    case ParameterKind::colour:
+        return "vec3(" + text + ")";
+    case ParameterKind::vec4:
+        return "vec4(" + text + ")";
+    default:
+        return text;
     }
 }
 
@@ -282,8 +294,8 @@ ShaderSource expand_shader(const fs::path& file, const fs::path& folder, const D
 
 std::vector<ShaderError> translate_log(const std::string& log, const ShaderSource& source, const fs::path& folder) {
     static const std::regex forms[] = {
-        std::regex(R"(^\s*\d+:(\d+)\(\d+\):\s*(.*)$)"),             // Mesa
-        std::regex(R"(^\s*\d+\((\d+)\)\s*:\s*(.*)$)"),              // NVIDIA
+        std::regex(R"(^\s*\d+:(\d+)\(\d+\):\s*(.*)$)"),               // Mesa
+        std::regex(R"(^\s*\d+\((\d+)\)\s*:\s*(.*)$)"),                // NVIDIA
         std::regex(R"(^\s*(?:ERROR|WARNING):\s*\d+:(\d+):\s*(.*)$)"), // AMD, Intel, glslang
     };
     std::vector<std::string> flat = split(source.text, '\n');

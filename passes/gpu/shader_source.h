@@ -1,6 +1,6 @@
 #pragma once
-// Shader text: includes expanded with a table from flat line to file and line (drivers' #line handling is unreliable, so
-// none is emitted), parameters and slots read from the text before anything is compiled. No OpenGL calls.
+// Shader text: includes expanded with a table from flat line to file and line (drivers' #line handling is unreliable,
+// so none is emitted), parameters and slots read from the text before anything is compiled. No OpenGL calls.
 
 #include "core/parameters.h"
 
@@ -48,10 +48,10 @@ struct SourceLocation {
 };
 
 struct ShaderSource {
-    std::string text;                         ///< complete GLSL, with #version
-    std::vector<std::filesystem::path> files; ///< closure: the stage file first, then includes in order
+    std::string text;                           ///< complete GLSL, with #version
+    std::vector<std::filesystem::path> files;   ///< closure: the stage file first, then includes in order
     std::vector<std::filesystem::path> missing; ///< includes that were not found (watched for their appearance)
-    std::vector<SourceLocation> lines;        ///< per flat line of `text` (0-based); line 0 = ours
+    std::vector<SourceLocation> lines;          ///< per flat line of `text` (0-based); line 0 = ours
     std::vector<ParameterInfo> parameters;
     std::vector<ShaderSlot> slots;
     std::vector<ShaderError> errors; ///< missing files, malformed //! lines

@@ -14,9 +14,12 @@ LiveObjects& live_objects() {
 
 GLenum gl_target(TextureKind kind) {
     switch (kind) {
-    case TextureKind::texture_2d: return GL_TEXTURE_2D;
-    case TextureKind::texture_2d_array: return GL_TEXTURE_2D_ARRAY;
-    case TextureKind::texture_3d: return GL_TEXTURE_3D;
+    case TextureKind::texture_2d:
+        return GL_TEXTURE_2D;
+    case TextureKind::texture_2d_array:
+        return GL_TEXTURE_2D_ARRAY;
+    case TextureKind::texture_3d:
+        return GL_TEXTURE_3D;
     }
     return 0;
 }
@@ -31,7 +34,8 @@ int full_mip_count(const TextureDesc& desc) {
     int longest = std::max(desc.size.x, desc.size.y);
     if (desc.kind == TextureKind::texture_3d) longest = std::max(longest, desc.size.z);
     int mips = 1;
-    while (longest >>= 1) ++mips;
+    while (longest >>= 1)
+        ++mips;
     return mips;
 }
 
@@ -87,7 +91,7 @@ GpuTexture::GpuTexture(const TextureDesc& desc, const std::string& name) : desc_
     GLenum filter = format_by_enum(desc.format).is_integer() ? GL_NEAREST : GL_LINEAR;
     glTextureParameteri(id_, GL_TEXTURE_MAG_FILTER, filter);
     glTextureParameteri(id_, GL_TEXTURE_MIN_FILTER,
-                        desc.mips == 1            ? filter
+                        desc.mips == 1         ? filter
                         : filter == GL_NEAREST ? GL_NEAREST_MIPMAP_NEAREST
                                                : GL_LINEAR_MIPMAP_LINEAR);
     for (GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
@@ -125,7 +129,8 @@ void GpuTexture::clear(glm::vec4 value, int mip) const {
     }
 }
 
-GpuTexture GpuTexture::view(TextureKind kind, int first_mip, int mips, int first_layer, int layers, GLenum format) const {
+GpuTexture GpuTexture::view(TextureKind kind, int first_mip, int mips, int first_layer, int layers,
+                            GLenum format) const {
     GpuTexture result;
     result.is_view_ = true;
     glm::ivec3 size = mip_size(desc_, first_mip);
@@ -148,7 +153,8 @@ GpuTexture GpuTexture::view(TextureKind kind, int first_mip, int mips, int first
     return result;
 }
 
-template <typename T> static std::vector<T> read_texture(const GpuTexture& texture, int mip, GLenum type) {
+template <typename T>
+static std::vector<T> read_texture(const GpuTexture& texture, int mip, GLenum type) {
     const TextureDesc& desc = texture.desc();
     const Format& format = format_by_enum(desc.format);
     glm::ivec3 size = mip_size(desc, mip);

@@ -16,7 +16,8 @@ const char* to_string(TimerMode mode) {
 }
 
 TimerMode probe_timer_mode() {
-    // A software renderer computes within the call and stamps its queries when it pleases: only the CPU's clock is right.
+    // A software renderer computes within the call and stamps its queries when it pleases: only the CPU's clock is
+    // right.
     const GLubyte* renderer = glGetString(GL_RENDERER);
     const char* name = renderer ? reinterpret_cast<const char*>(renderer) : "";
     for (const char* software : {"llvmpipe", "softpipe", "SWR"}) {

@@ -1,8 +1,8 @@
 #pragma once
 // GPU time of a stretch of commands, without ever stalling where the driver's queries can be trusted.
 
-#include <glad/gl.h>
 #include <array>
+#include <glad/gl.h>
 #include <optional>
 
 namespace bounce {

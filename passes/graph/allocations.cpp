@@ -36,7 +36,8 @@ bool Allocations::update(const Plan& plan) {
         history_lost = history_lost || resource.declaration.persistent || resource.needs_previous;
         next.push_back(std::move(entry));
     }
-    for (auto [to, from] : reused) next[to] = std::move(entries_[from]);
+    for (auto [to, from] : reused)
+        next[to] = std::move(entries_[from]);
     for (size_t i = 0; i < next.size(); ++i) {
         const PlanResource& resource = plan.resources[i];
         Entry& entry = *next[i];
@@ -94,7 +95,8 @@ const Framebuffer& Allocations::framebuffer(const std::vector<std::tuple<int, in
     auto add = [&](const std::tuple<int, int, int>& t) {
         key.insert(key.end(), {std::get<0>(t), std::get<1>(t), std::get<2>(t)});
     };
-    for (const auto& colour : colours) add(colour);
+    for (const auto& colour : colours)
+        add(colour);
     add(depth);
     key.insert(key.end(), {size.x, size.y});
     auto found = framebuffers_.find(key);
@@ -114,8 +116,10 @@ const Framebuffer& Allocations::framebuffer(const std::vector<std::tuple<int, in
 
 void Allocations::clear(int resource, glm::vec4 value) const {
     const Entry& entry = *entries_[size_t(resource)];
-    if (entry.is_buffer) entry.buffer.clear();
-    else entry.texture.clear(value);
+    if (entry.is_buffer)
+        entry.buffer.clear();
+    else
+        entry.texture.clear(value);
 }
 
 void Allocations::keep_previous(const Plan& plan) const {
@@ -129,8 +133,8 @@ void Allocations::keep_previous(const Plan& plan) const {
         GLenum target = gl_target(entry.desc.kind);
         for (int mip = 0; mip < entry.desc.mips; ++mip) {
             glm::ivec3 size = mip_size(entry.desc, mip);
-            glCopyImageSubData(entry.texture.id(), target, mip, 0, 0, 0, entry.previous_texture.id(), target, mip, 0, 0, 0,
-                               size.x, size.y, size.z);
+            glCopyImageSubData(entry.texture.id(), target, mip, 0, 0, 0, entry.previous_texture.id(), target, mip, 0, 0,
+                               0, size.x, size.y, size.z);
         }
     }
 }

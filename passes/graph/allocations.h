@@ -20,8 +20,8 @@ class Allocations {
     const Buffer& buffer(int resource, bool previous = false) const;
     /// A view of one mip (−1: all) and one layer (−1: all) as a sampler of that kind wants it.
     const GpuTexture& view(int resource, bool previous, int mip, int layer, bool as_2d);
-    const Framebuffer& framebuffer(const std::vector<std::tuple<int, int, int>>& colours, std::tuple<int, int, int> depth,
-                                   glm::ivec2 size);
+    const Framebuffer& framebuffer(const std::vector<std::tuple<int, int, int>>& colours,
+                                   std::tuple<int, int, int> depth, glm::ivec2 size);
     void clear(int resource, glm::vec4 value) const;
     /// This frame's content becomes last frame's.
     void keep_previous(const Plan& plan) const;

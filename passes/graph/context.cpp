@@ -89,7 +89,8 @@ void PassContext::set(const std::string& name, const ParameterValue& value) {
 }
 
 static bool sampler_is_2d(GLenum type) {
-    return type == GL_SAMPLER_2D || type == GL_INT_SAMPLER_2D || type == GL_UNSIGNED_INT_SAMPLER_2D || type == GL_SAMPLER_2D_SHADOW;
+    return type == GL_SAMPLER_2D || type == GL_INT_SAMPLER_2D || type == GL_UNSIGNED_INT_SAMPLER_2D ||
+           type == GL_SAMPLER_2D_SHADOW;
 }
 
 static bool image_is_2d(GLenum type) {
@@ -104,13 +105,20 @@ Program& PassContext::use(const std::string& name) {
     const ProgramInterface& interface = program->interface();
 
     for (const UniformInfo& uniform : interface.uniforms) {
-        auto constant = std::find_if(constants_.begin(), constants_.end(), [&](auto& c) { return c.first == uniform.name; });
-        if (constant != constants_.end()) set_uniform(program->id(), uniform, constant->second);
-        else if (uniform.name == "iteration") set_uniform(program->id(), uniform, iteration);
-        else if (uniform.name == "repeat_from") set_uniform(program->id(), uniform, pass_.repeat_from);
-        else if (uniform.name == "repeat_to") set_uniform(program->id(), uniform, pass_.repeat_to);
-        else if (auto value = frame_constant(frame(), uniform.name)) set_uniform(program->id(), uniform, *value);
-        else if (const Parameter* p = node.parameters.find(uniform.name)) set_uniform(program->id(), uniform, p->value);
+        auto constant =
+            std::find_if(constants_.begin(), constants_.end(), [&](auto& c) { return c.first == uniform.name; });
+        if (constant != constants_.end())
+            set_uniform(program->id(), uniform, constant->second);
+        else if (uniform.name == "iteration")
+            set_uniform(program->id(), uniform, iteration);
+        else if (uniform.name == "repeat_from")
+            set_uniform(program->id(), uniform, pass_.repeat_from);
+        else if (uniform.name == "repeat_to")
+            set_uniform(program->id(), uniform, pass_.repeat_to);
+        else if (auto value = frame_constant(frame(), uniform.name))
+            set_uniform(program->id(), uniform, *value);
+        else if (const Parameter* p = node.parameters.find(uniform.name))
+            set_uniform(program->id(), uniform, p->value);
     }
 
     for (const OpaqueInfo& sampler : interface.samplers) {
@@ -125,10 +133,13 @@ Program& PassContext::use(const std::string& name) {
         bool shadow = sampler.type == GL_SAMPLER_2D_SHADOW || sampler.type == GL_SAMPLER_2D_ARRAY_SHADOW;
         GLuint texture = 0;
         const PlanSlot* s = pass_.find(slot_name(sampler.name));
-        if (sampler.name == "scene_environment") texture = scene().environment().id();
+        if (sampler.name == "scene_environment")
+            texture = scene().environment().id();
         else if (s && s->resource >= 0) {
-            texture = graph_.allocations_.view(s->resource, s->bind.previous, index_at(s->bind.mip, iteration),
-                                               index_at(s->bind.layer, iteration), sampler_is_2d(sampler.type)).id();
+            texture = graph_.allocations_
+                          .view(s->resource, s->bind.previous, index_at(s->bind.mip, iteration),
+                                index_at(s->bind.layer, iteration), sampler_is_2d(sampler.type))
+                          .id();
         } else {
             texture = graph_.neutral_texture(sampler.type, s ? s->neutral : glm::vec4(0));
         }
@@ -147,19 +158,28 @@ Program& PassContext::use(const std::string& name) {
         int layer = index_at(s->bind.layer, iteration);
         bool layered = texture.desc().kind != TextureKind::texture_2d && !image_is_2d(image.type);
         GLenum access = s->use.writes ? (s->use.reads ? GL_READ_WRITE : GL_WRITE_ONLY) : GL_READ_ONLY;
-        glBindImageTexture(GLuint(image.unit), texture.id(), mip, layered, std::max(layer, 0), access, texture.desc().format);
+        glBindImageTexture(GLuint(image.unit), texture.id(), mip, layered, std::max(layer, 0), access,
+                           texture.desc().format);
     }
 
     for (const BlockInfo& block : interface.storage_blocks) {
         GLuint buffer = 0;
         const PlanSlot* s = pass_.find(slot_name(block.name));
-        if (block.name == "scene_vertices") buffer = scene().vertices().id();
-        else if (block.name == "scene_indices") buffer = scene().indices().id();
-        else if (block.name == "scene_draws") buffer = scene().draws().id();
-        else if (block.name == "scene_materials") buffer = scene().materials().id();
-        else if (block.name == "scene_lights") buffer = scene().lights().id();
-        else if (s && s->resource >= 0) buffer = graph_.allocations_.buffer(s->resource, s->bind.previous).id();
-        else buffer = graph_.frame_buffer_.id(); // a declined list: something readable must be there; its count is neutral
+        if (block.name == "scene_vertices")
+            buffer = scene().vertices().id();
+        else if (block.name == "scene_indices")
+            buffer = scene().indices().id();
+        else if (block.name == "scene_draws")
+            buffer = scene().draws().id();
+        else if (block.name == "scene_materials")
+            buffer = scene().materials().id();
+        else if (block.name == "scene_lights")
+            buffer = scene().lights().id();
+        else if (s && s->resource >= 0)
+            buffer = graph_.allocations_.buffer(s->resource, s->bind.previous).id();
+        else
+            buffer =
+                graph_.frame_buffer_.id(); // a declined list: something readable must be there; its count is neutral
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block.binding, buffer);
     }
     for (const BlockInfo& block : interface.uniform_blocks) {
@@ -192,7 +212,8 @@ void PassContext::bind_targets(const Targets& targets) {
         return {s.resource, mip >= 0 ? mip : targets.mip, layer >= 0 ? layer : targets.layer};
     };
     std::vector<std::tuple<int, int, int>> colours;
-    for (const std::string& colour : targets.colours) colours.push_back(tuple_of(colour));
+    for (const std::string& colour : targets.colours)
+        colours.push_back(tuple_of(colour));
     auto depth = tuple_of(targets.depth);
     auto first = colours.empty() ? depth : colours.front();
     glm::ivec3 size = mip_size(graph_.allocations_.texture(std::get<0>(first)).desc(), std::get<1>(first));
@@ -237,9 +258,10 @@ void PassContext::draw_scene(const std::string& name, const Targets& targets, co
             if (cull != culling) (cull ? glEnable : glDisable)(GL_CULL_FACE);
             culling = cull;
         }
-        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, GLsizei(draw.index_count), GL_UNSIGNED_INT,
-                                            reinterpret_cast<const void*>(uintptr_t(draw.first_index) * sizeof(uint32_t)),
-                                            options.instances, GLuint(i));
+        glDrawElementsInstancedBaseInstance(
+            GL_TRIANGLES, GLsizei(draw.index_count), GL_UNSIGNED_INT,
+            reinterpret_cast<const void*>(uintptr_t(draw.first_index) * sizeof(uint32_t)), options.instances,
+            GLuint(i));
     }
 }
 

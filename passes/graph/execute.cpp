@@ -32,7 +32,8 @@ void Graph::execute(const FrameInputs& inputs) {
     inputs_ = &inputs;
     non_finite_.clear();
     frame_buffer_.update(0, sizeof(FrameConstants), &inputs.constants);
-    for (const PlanPass& pass : plan_.passes) run_pass(pass);
+    for (const PlanPass& pass : plan_.passes)
+        run_pass(pass);
     allocations_.keep_previous(plan_);
     history_valid_ = true;
     glMemoryBarrier(GL_ALL_BARRIER_BITS); // whoever looks at the results (panels, readback) sees them
@@ -76,9 +77,16 @@ void Graph::take_timings(Times& times) {
     }
 }
 
+void Graph::forget_timings() {
+    finish_timings();
+    for (auto& [id, times] : times_)
+        times.history.clear();
+}
+
 void Graph::finish_timings() {
     glFinish();
-    for (auto& [id, times] : times_) take_timings(times);
+    for (auto& [id, times] : times_)
+        take_timings(times);
 }
 
 /// A pass whose program never compiled: its float colour outputs turn magenta, the others neutral.
@@ -111,12 +119,15 @@ static TextureKind kind_of_sampler(GLenum type) {
     switch (type) {
     case GL_SAMPLER_3D:
     case GL_INT_SAMPLER_3D:
-    case GL_UNSIGNED_INT_SAMPLER_3D: return TextureKind::texture_3d;
+    case GL_UNSIGNED_INT_SAMPLER_3D:
+        return TextureKind::texture_3d;
     case GL_SAMPLER_2D_ARRAY:
     case GL_SAMPLER_2D_ARRAY_SHADOW:
     case GL_INT_SAMPLER_2D_ARRAY:
-    case GL_UNSIGNED_INT_SAMPLER_2D_ARRAY: return TextureKind::texture_2d_array;
-    default: return TextureKind::texture_2d;
+    case GL_UNSIGNED_INT_SAMPLER_2D_ARRAY:
+        return TextureKind::texture_2d_array;
+    default:
+        return TextureKind::texture_2d;
     }
 }
 
@@ -124,13 +135,17 @@ static GLenum neutral_format(GLenum type) {
     switch (type) {
     case GL_UNSIGNED_INT_SAMPLER_2D:
     case GL_UNSIGNED_INT_SAMPLER_3D:
-    case GL_UNSIGNED_INT_SAMPLER_2D_ARRAY: return GL_RGBA32UI;
+    case GL_UNSIGNED_INT_SAMPLER_2D_ARRAY:
+        return GL_RGBA32UI;
     case GL_INT_SAMPLER_2D:
     case GL_INT_SAMPLER_3D:
-    case GL_INT_SAMPLER_2D_ARRAY: return GL_R32I;
+    case GL_INT_SAMPLER_2D_ARRAY:
+        return GL_R32I;
     case GL_SAMPLER_2D_SHADOW:
-    case GL_SAMPLER_2D_ARRAY_SHADOW: return GL_DEPTH_COMPONENT32F;
-    default: return GL_RGBA16F;
+    case GL_SAMPLER_2D_ARRAY_SHADOW:
+        return GL_DEPTH_COMPONENT32F;
+    default:
+        return GL_RGBA16F;
     }
 }
 

@@ -67,7 +67,8 @@ std::optional<ParameterValue> frame_constant(const FrameConstants& constants, co
 
 std::vector<std::string> frame_constant_names() {
     std::vector<std::string> names;
-    for (const auto& [name, getter] : getters()) names.push_back(name);
+    for (const auto& [name, getter] : getters())
+        names.push_back(name);
     return names;
 }
 

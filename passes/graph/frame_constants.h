@@ -12,8 +12,8 @@ namespace bounce {
 
 /// Members in std140 order; names are those of glsl/lib/frame.glsl.
 struct FrameConstants {
-    glm::mat4 view{1};                     ///< world → camera
-    glm::mat4 projection{1};               ///< reversed depth: 1 at the near plane, 0 at infinity; row 0 at the top
+    glm::mat4 view{1};       ///< world → camera
+    glm::mat4 projection{1}; ///< reversed depth: 1 at the near plane, 0 at infinity; row 0 at the top
     glm::mat4 view_projection{1};
     glm::mat4 inverse_view_projection{1};
     glm::mat4 previous_view_projection{1};
@@ -24,8 +24,8 @@ struct FrameConstants {
     glm::vec3 camera_up{0, 1, 0};
     float near_plane = 0.01f; ///< metres
     glm::vec3 camera_forward{0, 0, -1};
-    float aspect = 1; ///< width / height
-    glm::vec3 scene_min{0};   ///< bounds over the animation
+    float aspect = 1;       ///< width / height
+    glm::vec3 scene_min{0}; ///< bounds over the animation
     float scene_diagonal = 1;
     glm::vec3 scene_max{0};
     float delta_time = 0;

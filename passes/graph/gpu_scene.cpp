@@ -40,7 +40,8 @@ GpuScene::GpuScene(const Scene& scene, const Environment& environment)
         environment_ = GpuTexture({TextureKind::texture_2d, GL_RGBA16F, {1, 1, 1}, 1}, "scene.environment");
         environment_.clear(glm::vec4(1));
     } else {
-        environment_ = GpuTexture({TextureKind::texture_2d, GL_RGBA32F, {map.width, map.height, 1}, 1}, "scene.environment");
+        environment_ =
+            GpuTexture({TextureKind::texture_2d, GL_RGBA32F, {map.width, map.height, 1}, 1}, "scene.environment");
         GLenum format = map.channels == 4 ? GL_RGBA : GL_RGB;
         glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
         glTextureSubImage2D(environment_.id(), 0, 0, 0, map.width, map.height, format, GL_FLOAT, map.pixels.data());
@@ -95,8 +96,10 @@ void GpuScene::update_materials(const std::vector<Material>& materials) {
                           bound(m.normal_texture, flat_normal_), bound(m.emission_texture, white_)});
     }
     uint64_t bytes = packed.size() * sizeof(GpuMaterial);
-    if (materials_.bytes() != bytes || !materials_) materials_ = Buffer(bytes, packed.data(), "scene.materials");
-    else materials_.update(0, bytes, packed.data());
+    if (materials_.bytes() != bytes || !materials_)
+        materials_ = Buffer(bytes, packed.data(), "scene.materials");
+    else
+        materials_.update(0, bytes, packed.data());
 }
 
 void GpuScene::update(const SceneState& state) {
@@ -135,8 +138,10 @@ void GpuScene::update(const SceneState& state) {
     }
     auto upload = [](Buffer& buffer, const auto& list, const char* name) {
         uint64_t bytes = list.size() * sizeof(list[0]);
-        if (!buffer || buffer.bytes() != bytes) buffer = Buffer(bytes, list.data(), name);
-        else buffer.update(0, bytes, list.data());
+        if (!buffer || buffer.bytes() != bytes)
+            buffer = Buffer(bytes, list.data(), name);
+        else
+            buffer.update(0, bytes, list.data());
     };
     upload(draws_, draw_list_, "scene.draws");
     upload(lights_, light_list_, "scene.lights");
@@ -148,7 +153,8 @@ uint64_t GpuScene::geometry_bytes() const {
 
 uint64_t GpuScene::texture_bytes() const {
     uint64_t bytes = bounce::texture_bytes(environment_.desc());
-    for (const Array& array : arrays_) bytes += bounce::texture_bytes(array.texture.desc());
+    for (const Array& array : arrays_)
+        bytes += bounce::texture_bytes(array.texture.desc());
     return bytes;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-// The scene on the GPU: geometry, draws, materials, lights, textures. Uploaded once; draws and lights follow each frame.
-// GpuTexture arrays are bucketed by size (for compute); raster passes bind 2D views of their layers, so nothing is stored
-// twice.
+// The scene on the GPU: geometry, draws, materials, lights, textures. Uploaded once; draws and lights follow each
+// frame. GpuTexture arrays are bucketed by size (for compute); raster passes bind 2D views of their layers, so nothing
+// is stored twice.
 
 #include "gpu/objects.h"
 #include "scene/scene.h"
@@ -104,7 +104,7 @@ class GpuScene {
     GpuTexture environment_, white_, white_array_, flat_normal_;
     std::vector<Array> arrays_;
     std::vector<std::pair<int, int>> places_; ///< per Scene::textures: array, layer
-    std::vector<GpuTexture> views_;              ///< per Scene::textures
+    std::vector<GpuTexture> views_;           ///< per Scene::textures
     std::vector<GLuint> view_samplers_;
     std::map<int, Sampler> samplers_;
     std::vector<std::array<Bound, 4>> slots_; ///< per material

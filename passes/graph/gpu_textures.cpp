@@ -13,9 +13,12 @@ namespace bounce {
 
 static GLenum gl_wrap(Wrap wrap) {
     switch (wrap) {
-    case Wrap::repeat: return GL_REPEAT;
-    case Wrap::mirrored_repeat: return GL_MIRRORED_REPEAT;
-    case Wrap::clamp_to_edge: return GL_CLAMP_TO_EDGE;
+    case Wrap::repeat:
+        return GL_REPEAT;
+    case Wrap::mirrored_repeat:
+        return GL_MIRRORED_REPEAT;
+    case Wrap::clamp_to_edge:
+        return GL_CLAMP_TO_EDGE;
     }
     return GL_REPEAT;
 }
@@ -51,8 +54,12 @@ std::vector<Bucket> fill_buckets(const Scene& scene) {
     for (size_t i = 0; i < scene.textures.size(); ++i) {
         const Texture& texture = scene.textures[i];
         if (texture.image.rgba.empty()) continue;
-        Bucket wanted{{texture.image.width, texture.image.height}, texture.srgb, texture.wrap_u, texture.wrap_v,
-                      texture.nearest, {}};
+        Bucket wanted{{texture.image.width, texture.image.height},
+                      texture.srgb,
+                      texture.wrap_u,
+                      texture.wrap_v,
+                      texture.nearest,
+                      {}};
         auto found = std::find_if(buckets.begin(), buckets.end(),
                                   [&](const Bucket& b) { return b.size == wanted.size && same_kind(b, wanted); });
         if (found == buckets.end()) found = buckets.insert(buckets.end(), wanted);
@@ -72,7 +79,8 @@ void join_buckets(std::vector<Bucket>& buckets, size_t most) {
             for (size_t b = 0; b < buckets.size(); ++b) {
                 if (a == b || buckets[a].srgb != buckets[b].srgb) continue;
                 // b's textures would be resampled to a's size.
-                double cost = std::abs(std::log2(area(buckets[a]) / area(buckets[b]))) * double(buckets[b].textures.size());
+                double cost =
+                    std::abs(std::log2(area(buckets[a]) / area(buckets[b]))) * double(buckets[b].textures.size());
                 if (area(buckets[b]) > area(buckets[a])) cost += 50;
                 if (!same_kind(buckets[a], buckets[b])) cost += 1000;
                 if (cost < best_cost) best_cost = cost, best_a = a, best_b = b;
@@ -90,7 +98,8 @@ std::vector<uint8_t> resized(const Texture& texture, glm::ivec2 size) {
     if (image.width == size.x && image.height == size.y) return image.rgba;
     std::vector<uint8_t> out(size_t(size.x) * size.y * 4);
     if (texture.srgb) {
-        stbir_resize_uint8_srgb(image.rgba.data(), image.width, image.height, 0, out.data(), size.x, size.y, 0, 4, 3, 0);
+        stbir_resize_uint8_srgb(image.rgba.data(), image.width, image.height, 0, out.data(), size.x, size.y, 0, 4, 3,
+                                0);
     } else {
         stbir_resize_uint8(image.rgba.data(), image.width, image.height, 0, out.data(), size.x, size.y, 0, 4);
     }

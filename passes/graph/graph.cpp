@@ -13,7 +13,8 @@ namespace bounce {
 Graph::Graph(const std::filesystem::path& file, TimerMode timer_mode)
     : model_(std::make_unique<GraphModel>(load_graph_file(file))), timer_mode_(timer_mode),
       frame_buffer_(sizeof(FrameConstants), nullptr, "Frame"),
-      comparison_sampler_(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, "depth comparison"), empty_vertex_array_("no attributes") {
+      comparison_sampler_(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, "depth comparison"),
+      empty_vertex_array_("no attributes") {
 #ifdef BOUNCE_DEBUG
     check_nan = true;
 #endif
@@ -86,25 +87,32 @@ std::vector<std::string> Graph::check_interface(const PassNode& node, const Plan
         bool known = std::find(constants.begin(), constants.end(), uniform.name) != constants.end();
         const Parameter* parameter = node.parameters.find(uniform.name);
         if (!known && parameter && !uniform_takes(uniform.type, parameter->value)) {
-            problems.push_back(fmt::format("uniform '{}' and the parameter of that name are of different types", uniform.name));
+            problems.push_back(
+                fmt::format("uniform '{}' and the parameter of that name are of different types", uniform.name));
         }
         if (known || parameter) continue;
         std::vector<std::string> names = node.parameters.names();
         names.insert(names.end(), constants.begin(), constants.end());
-        problems.push_back(fmt::format("uniform '{0}' has no source{1}; to make it a parameter write: uniform … {0} = …;  //! "
-                                       "[least, greatest] what it is",
-                                       uniform.name, did_you_mean(uniform.name, names)));
+        problems.push_back(
+            fmt::format("uniform '{0}' has no source{1}; to make it a parameter write: uniform … {0} = …;  //! "
+                        "[least, greatest] what it is",
+                        uniform.name, did_you_mean(uniform.name, names)));
     }
     auto check_slot = [&](const std::string& identifier) {
-        if (!pass.find(slot_name(identifier)) && !identifier.starts_with("scene_") && !identifier.starts_with("material_")) {
+        if (!pass.find(slot_name(identifier)) && !identifier.starts_with("scene_") &&
+            !identifier.starts_with("material_")) {
             problems.push_back(fmt::format("'{}' is no slot of pass '{}'", slot_name(identifier), pass.id));
         }
     };
-    for (const OpaqueInfo& sampler : interface.samplers) check_slot(sampler.name);
-    for (const OpaqueInfo& image : interface.images) check_slot(image.name);
-    for (const BlockInfo& block : interface.storage_blocks) check_slot(block.name);
+    for (const OpaqueInfo& sampler : interface.samplers)
+        check_slot(sampler.name);
+    for (const OpaqueInfo& image : interface.images)
+        check_slot(image.name);
+    for (const BlockInfo& block : interface.storage_blocks)
+        check_slot(block.name);
     for (const BlockInfo& block : interface.uniform_blocks) {
-        if (block.name != "Frame") problems.push_back("uniform block '" + block.name + "' has no source; there is: Frame");
+        if (block.name != "Frame")
+            problems.push_back("uniform block '" + block.name + "' has no source; there is: Frame");
     }
     return problems;
 }
@@ -115,14 +123,16 @@ void Graph::build_programs() {
         model_->scan(node, formats_of(pass));
         for (const auto& program : node.programs) {
             std::string text;
-            for (const ShaderSource& source : program->sources()) text += source.text + '\0';
+            for (const ShaderSource& source : program->sources())
+                text += source.text + '\0';
             std::string& built = built_[node.id() + "/" + program->name()];
             bool same = built == text;
             if (same && program->errors().empty() && program->usable()) continue;
             built = text;
             bool good = program->build([&](const ProgramInterface& i) { return check_interface(node, pass, i); });
             if (good) newest_files_ = program->files();
-            for (const ShaderError& error : program->errors()) spdlog::error("shader: {}", error.text());
+            for (const ShaderError& error : program->errors())
+                spdlog::error("shader: {}", error.text());
             if (good && frames_ > 0) spdlog::info("shader: {} compiled", program->stages().front().string());
         }
     }
@@ -132,7 +142,8 @@ void Graph::reset_history() {
     if (!planned_) return;
     allocations_.reset(plan_);
     history_valid_ = false;
-    for (const auto& node : model_->nodes()) node->pass->reset_history();
+    for (const auto& node : model_->nodes())
+        node->pass->reset_history();
 }
 
 // --- reloading -------------------------------------------------------------------------------------------------------
@@ -179,7 +190,8 @@ void Graph::disable_programs(const std::vector<std::filesystem::path>& files) {
             if (program->files() != files) continue;
             program->disable();
             std::string text;
-            for (const ShaderSource& source : program->sources()) text += source.text + '\0';
+            for (const ShaderSource& source : program->sources())
+                text += source.text + '\0';
             built_[node->id() + "/" + program->name()] = text;
         }
     }
@@ -195,10 +207,12 @@ std::vector<GraphProblem> Graph::problems() const {
     for (const auto& node : model_->nodes()) {
         for (const auto& program : node->programs) {
             if (program->disabled()) {
-                problems.push_back({"pass " + node->id(), {program->stages().front(), 0, "",
-                                                           "disabled: it hung the GPU; edit it to try again"}});
+                problems.push_back(
+                    {"pass " + node->id(),
+                     {program->stages().front(), 0, "", "disabled: it hung the GPU; edit it to try again"}});
             }
-            for (const ShaderError& error : program->errors()) problems.push_back({"pass " + node->id(), error});
+            for (const ShaderError& error : program->errors())
+                problems.push_back({"pass " + node->id(), error});
         }
     }
     return problems;
@@ -206,7 +220,8 @@ std::vector<GraphProblem> Graph::problems() const {
 
 bool Graph::pass_is_stale(const std::string& id) const {
     const PassNode* node = model_->find_node(id);
-    return node && std::any_of(node->programs.begin(), node->programs.end(), [](auto& p) { return !p->errors().empty() || !p->usable(); });
+    return node && std::any_of(node->programs.begin(), node->programs.end(),
+                               [](auto& p) { return !p->errors().empty() || !p->usable(); });
 }
 
 // --- looking ---------------------------------------------------------------------------------------------------------
@@ -228,7 +243,8 @@ PassTiming Graph::timing(const std::string& id) const {
 
 double Graph::frame_ms() const {
     double sum = 0;
-    for (const PlanPass& pass : plan_.passes) sum += timing(pass.id).median;
+    for (const PlanPass& pass : plan_.passes)
+        sum += timing(pass.id).median;
     return sum;
 }
 

@@ -48,7 +48,8 @@ class Graph {
     /// One frame. prepare() must have run.
     void execute(const FrameInputs& inputs);
 
-    /// Looks at the watched files; reloads what changed, keeping the last good graph. Returns true when something changed.
+    /// Looks at the watched files; reloads what changed, keeping the last good graph. Returns true when something
+    /// changed.
     bool poll_files();
     /// A parameter or switch was changed: plan again at the next prepare().
     void touch() { dirty_ = true; }
@@ -65,6 +66,8 @@ class Graph {
 
     /// Waits for measurements that are still on their way (headless runs, before they report).
     void finish_timings();
+    /// Starts the statistics afresh (after a warm-up).
+    void forget_timings();
     PassTiming timing(const std::string& id) const;
     double frame_ms() const; ///< sum of the passes' medians
     /// The texture behind a resource; null for buffers and unknown names.
@@ -73,7 +76,9 @@ class Graph {
 
     /// Non-finite values are looked for after each pass when set (always in debug builds).
     bool check_nan = false;
-    const std::map<std::string, uint64_t>& non_finite() const { return non_finite_; } ///< resource → count, newest frame
+    const std::map<std::string, uint64_t>& non_finite() const {
+        return non_finite_;
+    } ///< resource → count, newest frame
     uint64_t frames() const { return frames_; }
 
   private:
@@ -86,7 +91,8 @@ class Graph {
     void plan_again(const SceneFacts& facts, glm::ivec2 size);
     void build_programs();
     Defines formats_of(const PlanPass& pass) const;
-    std::vector<std::string> check_interface(const PassNode& node, const PlanPass& pass, const ProgramInterface& interface) const;
+    std::vector<std::string> check_interface(const PassNode& node, const PlanPass& pass,
+                                             const ProgramInterface& interface) const;
     void take_timings(Times& times);
     void run_pass(const PlanPass& pass);
     void fill_failed(const PlanPass& pass);

@@ -86,13 +86,16 @@ ParameterInfo read_parameter(const std::string& name, const json& value, ErrorLi
     const json* fallback = reader.get("default");
     if (choices && choices->is_array()) {
         info.kind = ParameterKind::enumeration;
-        for (const json& choice : *choices) info.choices.push_back(choice.is_string() ? choice.get<std::string>() : choice.dump());
+        for (const json& choice : *choices)
+            info.choices.push_back(choice.is_string() ? choice.get<std::string>() : choice.dump());
     } else if (fallback && fallback->is_boolean()) {
         info.kind = ParameterKind::boolean;
     } else if (fallback && fallback->is_number_integer()) {
         info.kind = ParameterKind::integer;
     } else if (fallback && fallback->is_array()) {
-        info.kind = fallback->size() == 2 ? ParameterKind::vec2 : fallback->size() == 4 ? ParameterKind::vec4 : ParameterKind::vec3;
+        info.kind = fallback->size() == 2   ? ParameterKind::vec2
+                    : fallback->size() == 4 ? ParameterKind::vec4
+                                            : ParameterKind::vec3;
     }
     if (range) {
         if (range->is_array() && range->size() == 2 && (*range)[0].is_number() && (*range)[1].is_number()) {
@@ -126,13 +129,16 @@ ResourceDeclaration read_resource(const std::string& name, const json& value, st
         reader.error(error.what());
     }
     if (value.is_object()) {
-        for (const auto& item : value.items()) fields.push_back(item.key());
+        for (const auto& item : value.items())
+            fields.push_back(item.key());
     }
     std::string kind = reader.text("kind", "texture_2d");
     const std::vector<std::string> kinds = {"texture_2d", "texture_2d_array", "texture_3d", "buffer"};
     auto found = std::find(kinds.begin(), kinds.end(), kind);
-    if (found == kinds.end()) reader.error("there is no kind '" + kind + "'" + did_you_mean(kind, kinds));
-    else resource.kind = ResourceKind(found - kinds.begin());
+    if (found == kinds.end())
+        reader.error("there is no kind '" + kind + "'" + did_you_mean(kind, kinds));
+    else
+        resource.kind = ResourceKind(found - kinds.begin());
     resource.format = reader.text("format", "rgba16f");
     if (resource.kind != ResourceKind::buffer) {
         try {
@@ -144,7 +150,8 @@ ResourceDeclaration read_resource(const std::string& name, const json& value, st
     if (const json* size = reader.get("size")) {
         if (size->is_array() && size->size() >= 1 && size->size() <= 3) {
             resource.size = Extent(1, 1, 1);
-            for (size_t i = 0; i < size->size(); ++i) resource.size.parts[i] = reader.expression_of((*size)[i], "size", "1");
+            for (size_t i = 0; i < size->size(); ++i)
+                resource.size.parts[i] = reader.expression_of((*size)[i], "size", "1");
         } else if (size->is_string()) {
             resource.size = Extent::relative_to(size->get<std::string>());
         } else if (size->is_object()) {
@@ -162,8 +169,10 @@ ResourceDeclaration read_resource(const std::string& name, const json& value, st
     resource.persistent = reader.flag("persistent", false);
     resource.overwritten = !reader.flag("clear", true);
     if (const json* stride = reader.get("stride")) {
-        if (stride->is_number_integer() && stride->get<int>() > 0) resource.stride = stride->get<int>();
-        else reader.error("'stride' is a number of bytes above zero");
+        if (stride->is_number_integer() && stride->get<int>() > 0)
+            resource.stride = stride->get<int>();
+        else
+            reader.error("'stride' is a number of bytes above zero");
     }
     if (const json* neutral = reader.get("neutral")) {
         ParameterInfo info;
@@ -176,6 +185,29 @@ ResourceDeclaration read_resource(const std::string& name, const json& value, st
         }
     }
     return resource;
+}
+
+Transport read_transport(const json& value, ErrorList& errors) {
+    ObjectReader reader(value, "transport", errors);
+    Transport transport;
+    transport.diffuse_only = reader.flag("diffuse_only", false);
+    if (const json* bounces = reader.get("bounces")) {
+        bool whole = bounces->is_number_integer() && bounces->get<int>() >= 0;
+        if (whole)
+            transport.bounces = bounces->get<int>();
+        else if (*bounces != "all")
+            reader.error("'bounces' is a number of scattering orders after direct, or \"all\"");
+    }
+    if (const json* parts = reader.get("parts")) {
+        transport.parts.clear();
+        bool texts = parts->is_array() && !parts->empty();
+        for (const json& part : *parts) {
+            texts = texts && part.is_string();
+            if (texts) transport.parts.push_back(part.get<std::string>());
+        }
+        if (!texts) reader.error("'parts' is a list of out.* names");
+    }
+    return transport;
 }
 
 BindEntry read_bind(const json& value, const std::string& where, ErrorList& errors) {
@@ -230,8 +262,10 @@ NodeEntry read_node(const json& value, const std::string& where, ErrorList& erro
     node.enabled = reader.flag("enabled", true);
     node.needs = reader.expression("needs", "");
     std::vector<std::string> types;
-    for (const PassType& type : pass_types()) types.push_back(type.name);
-    if (node.type.empty()) reader.error("'type' is missing" + did_you_mean("", types));
+    for (const PassType& type : pass_types())
+        types.push_back(type.name);
+    if (node.type.empty())
+        reader.error("'type' is missing" + did_you_mean("", types));
     else if (std::find(types.begin(), types.end(), node.type) == types.end()) {
         reader.error("there is no pass type '" + node.type + "'" + did_you_mean(node.type, types));
     }
@@ -243,7 +277,8 @@ NodeEntry read_node(const json& value, const std::string& where, ErrorList& erro
     if (node.type != "compute" && !node.shader.empty()) reader.error("only passes of type compute take a 'shader'");
     if (const json* params = reader.get("params")) {
         if (params->is_object()) {
-            for (const auto& [name, parameter] : params->items()) node.params_json[name] = parameter.dump();
+            for (const auto& [name, parameter] : params->items())
+                node.params_json[name] = parameter.dump();
         } else {
             reader.error("'params' must be an object {name: value}");
         }
@@ -258,9 +293,11 @@ NodeEntry read_node(const json& value, const std::string& where, ErrorList& erro
         }
     }
     if (const json* dispatch = reader.get("dispatch")) {
-        if (dispatch->is_string()) node.dispatch.resource = dispatch->get<std::string>();
+        if (dispatch->is_string())
+            node.dispatch.resource = dispatch->get<std::string>();
         else if (dispatch->is_array() && !dispatch->empty() && dispatch->size() <= 3) {
-            for (const json& part : *dispatch) node.dispatch.threads.push_back(reader.expression_of(part, "dispatch", "1"));
+            for (const json& part : *dispatch)
+                node.dispatch.threads.push_back(reader.expression_of(part, "dispatch", "1"));
         } else if (dispatch->is_object() && dispatch->contains("indirect") && (*dispatch)["indirect"].is_string()) {
             node.dispatch.indirect = (*dispatch)["indirect"].get<std::string>();
         } else {
@@ -296,17 +333,20 @@ GraphFile load_graph_file(const std::filesystem::path& path) {
     try {
         root = json::parse(text, nullptr, true, true);
     } catch (const json::parse_error& error) {
-        size_t line = 1 + size_t(std::count(text.begin(), text.begin() + long(std::min(error.byte, text.size())), '\n'));
+        size_t line =
+            1 + size_t(std::count(text.begin(), text.begin() + long(std::min(error.byte, text.size())), '\n'));
         throw Error(fmt::format("{}:{}: not JSON: {}", path.string(), line, error.what()));
     }
     ErrorList errors;
     {
         ObjectReader reader(root, "graph", errors);
         file.about = reader.text("about");
+        if (const json* transport = reader.get("transport")) file.transport = read_transport(*transport, errors);
         const json* version = reader.get("version");
         if (!version || *version != 1) reader.error("'version' must be 1");
         if (const json* parameters = reader.get("parameters"); parameters && parameters->is_object()) {
-            for (const auto& [name, value] : parameters->items()) file.parameters.push_back(read_parameter(name, value, errors));
+            for (const auto& [name, value] : parameters->items())
+                file.parameters.push_back(read_parameter(name, value, errors));
         } else if (parameters) {
             reader.error("'parameters' must be an object");
         }
@@ -329,7 +369,8 @@ GraphFile load_graph_file(const std::filesystem::path& path) {
     std::set<std::string> ids;
     for (const NodeEntry& node : file.nodes) {
         if (!ids.insert(node.id).second) errors.add("two passes have the id '" + node.id + "'");
-        if (node.id == "graph") errors.add("a pass cannot have the id 'graph': that name is the graph's own parameters");
+        if (node.id == "graph")
+            errors.add("a pass cannot have the id 'graph': that name is the graph's own parameters");
     }
     errors.throw_if_any(path.string());
     return file;

@@ -2,14 +2,16 @@
 // A graph file (assets/graphs/*.json): an ordered list of passes with what differs from their defaults.
 //
 //   { "version": 1, "about": "…",
+//     "transport": {"bounces": 0, "diffuse_only": false, "parts": ["out.direct", "out.emission"]},
 //     "parameters": { "scale": {"default": 0.5, "range": [0.1, 1], "unit": "", "help": "…"} },
-//     "resources":  { "blur.half": {"kind": "texture_2d", "format": "rgba16f", "size": ["width*graph.scale", "height*graph.scale"],
+//     "resources":  { "blur.half": {"kind": "texture_2d", "format": "rgba16f", "size": ["width*graph.scale",
+//     "height*graph.scale"],
 //                                   "mips": 1, "persistent": false, "clear": true, "neutral": [0,0,0,0]},
 //                     "list.nodes": {"kind": "buffer", "count": "width*height*8", "stride": 16} },
 //     "passes": [ { "id": "blur", "type": "compute", "shader": "blur.comp", "params": {"radius": 3},
-//                   "bind": {"blur.source": "out.direct", "blur.target": {"resource": "blur.half", "mip": "iteration"}},
-//                   "dispatch": "blur.half", "repeat": {"over": "mips", "of": "blur.half", "from": 1}, "enabled": true,
-//                   "needs": "emissive_materials + environment" } ] }
+//                   "bind": {"blur.source": "out.direct", "blur.target": {"resource": "blur.half", "mip":
+//                   "iteration"}}, "dispatch": "blur.half", "repeat": {"over": "mips", "of": "blur.half", "from": 1},
+//                   "enabled": true, "needs": "emissive_materials + environment" } ] }
 
 #include "core/parameters.h"
 #include "graph/resource.h"
@@ -31,8 +33,8 @@ struct BindEntry {
 };
 
 struct RepeatEntry {
-    std::string over;     ///< "", "count", "mips", "layers", "lights", "views"
-    std::string of;       ///< resource for mips and layers
+    std::string over; ///< "", "count", "mips", "layers", "lights", "views"
+    std::string of;   ///< resource for mips and layers
     std::string count = "1";
     std::string from = "0";
 };
@@ -53,10 +55,18 @@ struct NodeEntry {
     bool enabled = true;
 };
 
+/// The light transport that a graph models, so that it is held to a reference of the same.
+struct Transport {
+    int bounces = -1; ///< scattering orders after direct; −1 = all
+    bool diffuse_only = false;
+    std::vector<std::string> parts{"out.radiance"}; ///< the parts that it makes; their sum is what is compared
+};
+
 struct GraphFile {
     std::string name; ///< file name without extension
     std::filesystem::path path;
     std::string about;
+    Transport transport;
     std::vector<ParameterInfo> parameters;
     std::vector<ResourceDeclaration> resources; ///< only the fields that `set_fields` names were given
     std::map<std::string, std::vector<std::string>> set_fields;

@@ -110,15 +110,18 @@ void GraphModel::apply_file_values(PassNode& node, ErrorList& errors) {
     for (const auto& [name, text] : node.entry.params_json) {
         try {
             if (auto expression = as_expression(text)) {
-                double value = evaluate(*expression, [&](const std::string& n) { return graph_number(graph_parameters_, n); });
+                double value =
+                    evaluate(*expression, [&](const std::string& n) { return graph_number(graph_parameters_, n); });
                 node.parameters.set_text(name, fmt::format("{}", value), ParameterOrigin::graph);
             } else {
                 node.parameters.set_json(name, nlohmann::json::parse(text), ParameterOrigin::graph);
             }
         } catch (const Error& error) {
             // A parameter of a shader that does not scan for the moment is not unknown, only out of sight.
-            bool broken = std::any_of(node.programs.begin(), node.programs.end(), [](auto& p) { return !p->errors().empty(); });
-            if (!broken || node.parameters.find(name)) errors.add(fmt::format("pass '{}': {}", node.id(), error.what()));
+            bool broken =
+                std::any_of(node.programs.begin(), node.programs.end(), [](auto& p) { return !p->errors().empty(); });
+            if (!broken || node.parameters.find(name))
+                errors.add(fmt::format("pass '{}': {}", node.id(), error.what()));
         }
     }
 }
@@ -132,10 +135,14 @@ static std::pair<std::string, std::string> split_name(const std::string& name) {
 Parameter& GraphModel::parameter(const std::string& name) {
     auto [id, parameter] = split_name(name);
     ParameterSet* set = nullptr;
-    if (id == "graph") set = &graph_parameters_;
-    else if (PassNode* node = find_node(id)) set = &node->parameters;
+    if (id == "graph")
+        set = &graph_parameters_;
+    else if (PassNode* node = find_node(id))
+        set = &node->parameters;
     Parameter* found = set ? set->find(parameter) : nullptr;
-    if (!found) throw Error(fmt::format("there is no parameter '{}' in graph '{}'{}", name, file_.name, did_you_mean(name, parameter_names())));
+    if (!found)
+        throw Error(fmt::format("there is no parameter '{}' in graph '{}'{}", name, file_.name,
+                                did_you_mean(name, parameter_names())));
     return *found;
 }
 
@@ -153,7 +160,8 @@ void GraphModel::set(const std::string& name, const std::string& text, Parameter
             Parameter* target = node->parameters.find(derived);
             auto expression = as_expression(json);
             if (!target || !expression || target->origin > ParameterOrigin::graph) continue;
-            double value = evaluate(*expression, [&](const std::string& n) { return graph_number(graph_parameters_, n); });
+            double value =
+                evaluate(*expression, [&](const std::string& n) { return graph_number(graph_parameters_, n); });
             node->parameters.set_text(derived, fmt::format("{}", value), ParameterOrigin::graph);
         }
     }
@@ -161,9 +169,11 @@ void GraphModel::set(const std::string& name, const std::string& text, Parameter
 
 std::vector<std::string> GraphModel::parameter_names() const {
     std::vector<std::string> names;
-    for (const Parameter& p : graph_parameters_.all()) names.push_back("graph." + p.info.name);
+    for (const Parameter& p : graph_parameters_.all())
+        names.push_back("graph." + p.info.name);
     for (const auto& node : nodes_) {
-        for (const Parameter& p : node->parameters.all()) names.push_back(node->id() + "." + p.info.name);
+        for (const Parameter& p : node->parameters.all())
+            names.push_back(node->id() + "." + p.info.name);
     }
     return names;
 }

@@ -7,7 +7,8 @@ namespace bounce {
 
 NanCheck::NanCheck() : counter_(4, nullptr, "non-finite counter") {
     for (int kind = 0; kind < 3; ++kind) {
-        auto program = std::make_unique<Program>("nan_check", std::vector<std::filesystem::path>{"graph/nan_check.comp"}, glsl_folder());
+        auto program = std::make_unique<Program>(
+            "nan_check", std::vector<std::filesystem::path>{"graph/nan_check.comp"}, glsl_folder());
         program->scan({{"TEXTURE_KIND", std::to_string(kind)}}, {});
         if (!program->build({})) throw Error(program->errors().front().text());
         programs_[kind] = std::move(program);

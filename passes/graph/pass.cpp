@@ -30,7 +30,8 @@ void Declaration::uses(const std::string& program) {
         Usage usage = slot.kind == SlotKind::sampled ? Usage::sampled
                       : slot.kind == SlotKind::image ? Usage::image
                                                      : Usage::storage;
-        auto known = std::find_if(uses_.begin(), uses_.end(), [&](const SlotUse& u) { return u.slot == slot.name && u.usage == usage; });
+        auto known = std::find_if(uses_.begin(), uses_.end(),
+                                  [&](const SlotUse& u) { return u.slot == slot.name && u.usage == usage; });
         if (known != uses_.end()) {
             known->reads = known->reads || slot.reads;
             known->writes = known->writes || slot.writes;

@@ -52,7 +52,8 @@ class PassDescription {
 /// What a pass reads and writes, as a function of its parameters and the scene.
 class Declaration {
   public:
-    Declaration(const SceneFacts& scene_facts, glm::ivec2 picture, std::function<std::vector<ShaderSlot>(const std::string&)> slots)
+    Declaration(const SceneFacts& scene_facts, glm::ivec2 picture,
+                std::function<std::vector<ShaderSlot>(const std::string&)> slots)
         : facts(scene_facts), size(picture), slots_of_(std::move(slots)) {}
 
     const SceneFacts& facts;
@@ -64,7 +65,9 @@ class Declaration {
     void reads(const std::string& slot, Usage usage) { uses_.push_back({slot, usage, true, false, false, ""}); }
     void reads_optional(const std::string& slot, Usage usage) { uses_.push_back({slot, usage, true, false, true, ""}); }
     void writes(const std::string& slot, Usage usage) { uses_.push_back({slot, usage, false, true, false, ""}); }
-    void reads_and_writes(const std::string& slot, Usage usage) { uses_.push_back({slot, usage, true, true, false, ""}); }
+    void reads_and_writes(const std::string& slot, Usage usage) {
+        uses_.push_back({slot, usage, true, true, false, ""});
+    }
     /// Every slot of a program's shaders, with the access that they declare.
     void uses(const std::string& program);
     /// Execute is called for iteration = from, …, to − 1, with barriers between.

@@ -21,7 +21,8 @@ const PlanSlot* PlanPass::find(const std::string& slot) const {
 
 uint64_t Plan::total_bytes() const {
     uint64_t bytes = 0;
-    for (const PlanResource& resource : resources) bytes += resource.total_bytes();
+    for (const PlanResource& resource : resources)
+        bytes += resource.total_bytes();
     return bytes;
 }
 
@@ -34,7 +35,8 @@ const PlanResource* Plan::find_resource(const std::string& name) const {
 
 std::vector<std::string> Plan::resource_names() const {
     std::vector<std::string> names;
-    for (const PlanResource& resource : resources) names.push_back(resource.name());
+    for (const PlanResource& resource : resources)
+        names.push_back(resource.name());
     return names;
 }
 
@@ -61,13 +63,16 @@ class Planner {
 
     Plan run() {
         take_file_resources();
-        for (const auto& node : model_.nodes()) declare(*node);
+        for (const auto& node : model_.nodes())
+            declare(*node);
         check_sources();
         errors_.throw_if_any("graph '" + model_.file().name + "'");
         decline();
         std::vector<int> order = sort();
-        for (const ResourceDeclaration& resource : resources_) size_of(resource.name);
-        for (Declared& pass : passes_) resolve_repeat(pass);
+        for (const ResourceDeclaration& resource : resources_)
+            size_of(resource.name);
+        for (Declared& pass : passes_)
+            resolve_repeat(pass);
         errors_.throw_if_any("graph '" + model_.file().name + "'");
         fill(order);
         place_barriers();
@@ -77,7 +82,8 @@ class Planner {
   private:
     // --- declaring -------------------------------------------------------------------------------------------------
     void take_file_resources() {
-        for (const ResourceDeclaration& resource : model_.file().resources) resources_.push_back(resource);
+        for (const ResourceDeclaration& resource : model_.file().resources)
+            resources_.push_back(resource);
     }
 
     ResourceDeclaration* find(const std::string& name) {
@@ -103,7 +109,8 @@ class Planner {
         pass.node = &node;
         try {
             pass.declined = node.enabled ? node.pass->unneeded(facts_) : "switched off";
-            if (pass.declined.empty() && !node.entry.needs.empty() && evaluate(node.entry.needs, [&](auto& n) { return fact(n); }) == 0) {
+            if (pass.declined.empty() && !node.entry.needs.empty() &&
+                evaluate(node.entry.needs, [&](auto& n) { return fact(n); }) == 0) {
                 pass.declined = "the scene has no " + node.entry.needs;
             }
             node.pass->declare(declaration);
@@ -121,10 +128,13 @@ class Planner {
             bool known = std::any_of(pass.uses.begin(), pass.uses.end(), [&](auto& u) { return u.slot == slot; });
             if (known) continue;
             std::vector<std::string> names;
-            for (const SlotUse& use : pass.uses) names.push_back(use.slot);
-            if (!broken(node)) errors_.add(fmt::format("pass '{}' has no slot '{}'{}", node.id(), slot, did_you_mean(slot, names)));
+            for (const SlotUse& use : pass.uses)
+                names.push_back(use.slot);
+            if (!broken(node))
+                errors_.add(fmt::format("pass '{}' has no slot '{}'{}", node.id(), slot, did_you_mean(slot, names)));
         }
-        for (const ResourceDeclaration& made : declaration.resources()) take_resource(node, made);
+        for (const ResourceDeclaration& made : declaration.resources())
+            take_resource(node, made);
         passes_.push_back(std::move(pass));
     }
 
@@ -143,7 +153,9 @@ class Planner {
         } else if (known->declared_by == "graph file") {
             // The file changes what it names and leaves the rest as the pass has it.
             const auto& fields = model_.file().set_fields.at(made.name);
-            auto given = [&](const char* field) { return std::find(fields.begin(), fields.end(), field) != fields.end(); };
+            auto given = [&](const char* field) {
+                return std::find(fields.begin(), fields.end(), field) != fields.end();
+            };
             ResourceDeclaration merged = made;
             if (given("kind")) merged.kind = known->kind;
             if (given("format")) merged.format = known->format;
@@ -173,22 +185,27 @@ class Planner {
 
     void check_sources() {
         std::vector<std::string> names;
-        for (const ResourceDeclaration& resource : resources_) names.push_back(resource.name);
+        for (const ResourceDeclaration& resource : resources_)
+            names.push_back(resource.name);
         for (const Declared& pass : passes_) {
             for (size_t i = 0; i < pass.uses.size(); ++i) {
                 const SlotUse& use = pass.uses[i];
                 const std::string& target = pass.targets[i].resource;
                 if (is_builtin(use.slot) || use.optional) continue;
-                std::string slot = use.slot == target ? "'" + target + "'" : fmt::format("'{}' (slot {})", target, use.slot);
+                std::string slot =
+                    use.slot == target ? "'" + target + "'" : fmt::format("'{}' (slot {})", target, use.slot);
                 if (!find(target)) {
-                    errors_.add(fmt::format("pass '{}' ({}) {} {}, which nothing declares{}", pass.node->id(), use.where,
-                                            use.writes ? "writes" : "reads", slot, did_you_mean(target, names)));
+                    errors_.add(fmt::format("pass '{}' ({}) {} {}, which nothing declares{}", pass.node->id(),
+                                            use.where, use.writes ? "writes" : "reads", slot,
+                                            did_you_mean(target, names)));
                 } else if (use.reads && !use.writes && !pass.targets[i].previous && !has_writer(target)) {
-                    errors_.add(fmt::format("pass '{}' ({}) reads {}, which nothing writes", pass.node->id(), use.where, slot));
+                    errors_.add(
+                        fmt::format("pass '{}' ({}) reads {}, which nothing writes", pass.node->id(), use.where, slot));
                 } else if (bool buffer = find(target)->kind == ResourceKind::buffer;
                            buffer != (use.usage == Usage::storage || use.usage == Usage::indirect)) {
-                    errors_.add(fmt::format("pass '{}' ({}) uses {} as a {}, but it is a {}", pass.node->id(), use.where, slot,
-                                            buffer ? "texture" : "buffer", to_string(find(target)->kind)));
+                    errors_.add(fmt::format("pass '{}' ({}) uses {} as a {}, but it is a {}", pass.node->id(),
+                                            use.where, slot, buffer ? "texture" : "buffer",
+                                            to_string(find(target)->kind)));
                 }
             }
         }
@@ -248,8 +265,10 @@ class Planner {
             changed = false;
             for (Declared& pass : passes_) {
                 if (!pass.declined.empty() || makes_the_picture(pass)) continue;
-                if (starved(pass)) pass.declined = "all that it reads comes from declined passes";
-                else if (unread(pass)) pass.declined = "only declined passes read what it makes";
+                if (starved(pass))
+                    pass.declined = "all that it reads comes from declined passes";
+                else if (unread(pass))
+                    pass.declined = "only declined passes read what it makes";
                 changed = changed || !pass.declined.empty();
             }
         }
@@ -259,7 +278,8 @@ class Planner {
     }
 
     // --- ordering --------------------------------------------------------------------------------------------------
-    /// A reader comes after every writer listed before it, or, when none is, after all writers; writers keep their order.
+    /// A reader comes after every writer listed before it, or, when none is, after all writers; writers keep their
+    /// order.
     std::vector<int> sort() {
         int n = int(passes_.size());
         std::vector<std::set<int>> after(n); // after[i]: passes that must come before i
@@ -273,21 +293,27 @@ class Planner {
                     writes = writes || passes_[p].uses[i].writes;
                     reads = reads || (passes_[p].uses[i].reads && !passes_[p].targets[i].previous);
                 }
-                if (writes) writers.push_back(p);
-                else if (reads) readers.push_back(p);
+                if (writes)
+                    writers.push_back(p);
+                else if (reads)
+                    readers.push_back(p);
             }
-            for (size_t i = 1; i < writers.size(); ++i) after[writers[i]].insert(writers[i - 1]);
+            for (size_t i = 1; i < writers.size(); ++i)
+                after[writers[i]].insert(writers[i - 1]);
             for (int reader : readers) {
                 bool any_before = std::any_of(writers.begin(), writers.end(), [&](int w) { return w < reader; });
                 for (int writer : writers) {
-                    if (writer < reader || !any_before) after[reader].insert(writer);
-                    else after[writer].insert(reader);
+                    if (writer < reader || !any_before)
+                        after[reader].insert(writer);
+                    else
+                        after[writer].insert(reader);
                 }
             }
         }
         std::vector<int> order;
         std::vector<bool> done(n, false);
-        size_t wanted = size_t(std::count_if(passes_.begin(), passes_.end(), [](auto& p) { return p.declined.empty(); }));
+        size_t wanted =
+            size_t(std::count_if(passes_.begin(), passes_.end(), [](auto& p) { return p.declined.empty(); }));
         while (order.size() < wanted) {
             int next = -1;
             for (int p = 0; p < n && next < 0; ++p) {
@@ -335,7 +361,8 @@ class Planner {
         if (name == "width") return plan_.size.x;
         if (name == "height") return plan_.size.y;
         if (name == "lights") return double(facts_.lights());
-        if (name == "shadow_views") return double(facts_.spot_lights + facts_.directional_lights + 6 * facts_.point_lights);
+        if (name == "shadow_views")
+            return double(facts_.spot_lights + facts_.directional_lights + 6 * facts_.point_lights);
         if (auto found = model_.number(name)) return found;
         size_t last = name.rfind('.');
         if (last == std::string::npos) return std::nullopt;
@@ -367,9 +394,11 @@ class Planner {
                             : declaration.kind == ResourceKind::texture_2d_array ? TextureKind::texture_2d_array
                                                                                  : TextureKind::texture_3d;
                 desc.format = format_by_name(declaration.format).internal;
-                for (int i = 0; i < 3; ++i) desc.size[i] = evaluate_integer(declaration.size.parts[size_t(i)], lookup, 1);
+                for (int i = 0; i < 3; ++i)
+                    desc.size[i] = evaluate_integer(declaration.size.parts[size_t(i)], lookup, 1);
                 int full = full_mip_count(desc);
-                desc.mips = declaration.mips == "full" ? full : std::min(full, evaluate_integer(declaration.mips, lookup, 1));
+                desc.mips =
+                    declaration.mips == "full" ? full : std::min(full, evaluate_integer(declaration.mips, lookup, 1));
                 out.bytes = texture_bytes(desc);
             }
         } catch (const Error& error) {
@@ -385,11 +414,17 @@ class Planner {
         NameLookup lookup = [&](const std::string& n) { return number(n); };
         try {
             pass.repeat_from = evaluate_integer(repeat.from, lookup, 0);
-            if (repeat.over == "count") pass.repeat_to = evaluate_integer(repeat.count, lookup, 0);
-            else if (repeat.over == "lights") pass.repeat_to = int(facts_.lights());
-            else if (repeat.over == "views") pass.repeat_to = int(*number("shadow_views"));
-            else if (!find(repeat.of)) throw Error("repeats over '" + repeat.of + "', which nothing declares");
-            else pass.repeat_to = repeat.over == "mips" ? size_of(repeat.of).texture.mips : size_of(repeat.of).texture.size.z;
+            if (repeat.over == "count")
+                pass.repeat_to = evaluate_integer(repeat.count, lookup, 0);
+            else if (repeat.over == "lights")
+                pass.repeat_to = int(facts_.lights());
+            else if (repeat.over == "views")
+                pass.repeat_to = int(*number("shadow_views"));
+            else if (!find(repeat.of))
+                throw Error("repeats over '" + repeat.of + "', which nothing declares");
+            else
+                pass.repeat_to =
+                    repeat.over == "mips" ? size_of(repeat.of).texture.mips : size_of(repeat.of).texture.size.z;
         } catch (const Error& error) {
             errors_.add("pass '" + pass.node->id() + "': " + error.what());
         }
@@ -401,7 +436,8 @@ class Planner {
         for (const ResourceDeclaration& resource : resources_) {
             bool used = false;
             for (int p : order) {
-                for (const BindEntry& target : passes_[p].targets) used = used || target.resource == resource.name;
+                for (const BindEntry& target : passes_[p].targets)
+                    used = used || target.resource == resource.name;
             }
             if (!used || all_writers_declined(resource.name)) continue;
             index[resource.name] = int(plan_.resources.size());
@@ -418,7 +454,8 @@ class Planner {
             pass.repeat_from = declared.repeat_from;
             pass.repeat_to = declared.repeat_to;
             for (size_t i = 0; i < declared.uses.size(); ++i) {
-                PlanSlot slot{declared.uses[i], -1, is_builtin(declared.uses[i].slot), glm::vec4(0), declared.targets[i]};
+                PlanSlot slot{declared.uses[i], -1, is_builtin(declared.uses[i].slot), glm::vec4(0),
+                              declared.targets[i]};
                 if (const ResourceDeclaration* known = find(slot.bind.resource)) slot.neutral = known->neutral;
                 auto found = index.find(slot.bind.resource);
                 if (!slot.builtin && found != index.end()) {
@@ -443,12 +480,17 @@ class Planner {
 
     static GLbitfield barrier_for(Usage usage) {
         switch (usage) {
-        case Usage::sampled: return GL_TEXTURE_FETCH_BARRIER_BIT;
-        case Usage::image: return GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
-        case Usage::storage: return GL_SHADER_STORAGE_BARRIER_BIT;
+        case Usage::sampled:
+            return GL_TEXTURE_FETCH_BARRIER_BIT;
+        case Usage::image:
+            return GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
+        case Usage::storage:
+            return GL_SHADER_STORAGE_BARRIER_BIT;
         case Usage::colour:
-        case Usage::depth: return GL_FRAMEBUFFER_BARRIER_BIT;
-        case Usage::indirect: return GL_COMMAND_BARRIER_BIT;
+        case Usage::depth:
+            return GL_FRAMEBUFFER_BARRIER_BIT;
+        case Usage::indirect:
+            return GL_COMMAND_BARRIER_BIT;
         }
         return 0;
     }
@@ -464,9 +506,11 @@ class Planner {
                 if (slot.resource < 0) continue;
                 pass.barriers |= pending[slot.resource] & barrier_for(slot.use.usage);
             }
-            for (auto& [resource, bits] : pending) bits &= ~pass.barriers;
+            for (auto& [resource, bits] : pending)
+                bits &= ~pass.barriers;
             for (const PlanSlot& slot : pass.slots) {
-                bool incoherent = slot.use.writes && (slot.use.usage == Usage::image || slot.use.usage == Usage::storage);
+                bool incoherent =
+                    slot.use.writes && (slot.use.usage == Usage::image || slot.use.usage == Usage::storage);
                 if (slot.resource < 0 || !incoherent) continue;
                 pending[slot.resource] = all;
                 for (const PlanSlot& other : pass.slots) {

@@ -13,9 +13,9 @@ namespace bounce {
 
 struct PlanResource {
     ResourceDeclaration declaration;
-    TextureDesc texture;  ///< unless a buffer
-    uint64_t count = 0;   ///< elements of a buffer
-    uint64_t bytes = 0;   ///< of all mips, without last frame's copy
+    TextureDesc texture; ///< unless a buffer
+    uint64_t count = 0;  ///< elements of a buffer
+    uint64_t bytes = 0;  ///< of all mips, without last frame's copy
     bool needs_previous = false;
     std::vector<std::string> writers, readers; ///< pass ids in plan order
     bool is_buffer() const { return declaration.kind == ResourceKind::buffer; }
@@ -25,10 +25,10 @@ struct PlanResource {
 
 struct PlanSlot {
     SlotUse use;
-    int resource = -1;   ///< index into Plan::resources; −1: the neutral value, or one of the scene's own resources
+    int resource = -1;    ///< index into Plan::resources; −1: the neutral value, or one of the scene's own resources
     bool builtin = false; ///< scene.… or material.…: bound by the graph itself
     glm::vec4 neutral{0};
-    BindEntry bind;      ///< mip and layer expressions, previous
+    BindEntry bind; ///< mip and layer expressions, previous
 };
 
 struct PlanPass {

@@ -8,8 +8,10 @@ namespace bounce {
 
 std::string barrier_text(GLbitfield bits) {
     static const std::pair<GLbitfield, const char*> names[] = {
-        {GL_TEXTURE_FETCH_BARRIER_BIT, "texture_fetch"},   {GL_SHADER_IMAGE_ACCESS_BARRIER_BIT, "shader_image_access"},
-        {GL_SHADER_STORAGE_BARRIER_BIT, "shader_storage"}, {GL_FRAMEBUFFER_BARRIER_BIT, "framebuffer"},
+        {GL_TEXTURE_FETCH_BARRIER_BIT, "texture_fetch"},
+        {GL_SHADER_IMAGE_ACCESS_BARRIER_BIT, "shader_image_access"},
+        {GL_SHADER_STORAGE_BARRIER_BIT, "shader_storage"},
+        {GL_FRAMEBUFFER_BARRIER_BIT, "framebuffer"},
         {GL_COMMAND_BARRIER_BIT, "command"},
     };
     std::vector<std::string> set;
@@ -23,7 +25,8 @@ static std::string shape_text(const PlanResource& resource) {
     const ResourceDeclaration& d = resource.declaration;
     if (resource.is_buffer()) return fmt::format("buffer {} × {} B", resource.count, d.stride);
     glm::ivec3 s = resource.texture.size;
-    std::string size = d.kind == ResourceKind::texture_2d ? fmt::format("{}×{}", s.x, s.y) : fmt::format("{}×{}×{}", s.x, s.y, s.z);
+    std::string size =
+        d.kind == ResourceKind::texture_2d ? fmt::format("{}×{}", s.x, s.y) : fmt::format("{}×{}×{}", s.x, s.y, s.z);
     std::string mips = resource.texture.mips > 1 ? fmt::format(", {} mips", resource.texture.mips) : "";
     return fmt::format("{} {} {}{}", to_string(d.kind), d.format, size, mips);
 }
@@ -42,54 +45,67 @@ static std::string slot_text(const Plan& plan, const PlanSlot& slot) {
 }
 
 std::string plan_text(const GraphModel& model, const Plan& plan) {
-    std::string out = fmt::format("graph {} at {}×{}: {} passes, {} resources, {}\n", model.file().name, plan.size.x,
-                                  plan.size.y, plan.passes.size(), plan.resources.size(),
-                                  format_bytes(double(plan.total_bytes())));
+    std::string out =
+        fmt::format("graph {} at {}×{}: {} passes, {} resources, {}\n", model.file().name, plan.size.x, plan.size.y,
+                    plan.passes.size(), plan.resources.size(), format_bytes(double(plan.total_bytes())));
     if (!model.file().about.empty()) out += model.file().about + "\n";
     int number = 0;
     for (const PlanPass& pass : plan.passes) {
         const PassNode& node = *model.nodes()[size_t(pass.node)];
         out += fmt::format("\n{:2}. {}", ++number, pass.id);
-        if (node.entry.type != pass.id) out += fmt::format(" ({}{})", node.entry.type, node.entry.shader.empty() ? "" : " " + node.entry.shader);
-        if (pass.repeat_to - pass.repeat_from != 1) out += fmt::format(", steps {} … {}", pass.repeat_from, pass.repeat_to - 1);
+        if (node.entry.type != pass.id)
+            out += fmt::format(" ({}{})", node.entry.type, node.entry.shader.empty() ? "" : " " + node.entry.shader);
+        if (pass.repeat_to - pass.repeat_from != 1)
+            out += fmt::format(", steps {} … {}", pass.repeat_from, pass.repeat_to - 1);
         out += "\n";
         if (pass.barriers) out += "      barrier " + barrier_text(pass.barriers) + "\n";
-        if (pass.step_barriers && pass.repeat_to - pass.repeat_from > 1) out += "      between steps " + barrier_text(pass.step_barriers) + "\n";
-        for (int clear : pass.clears) out += "      clears  " + plan.resources[size_t(clear)].name() + "\n";
+        if (pass.step_barriers && pass.repeat_to - pass.repeat_from > 1)
+            out += "      between steps " + barrier_text(pass.step_barriers) + "\n";
+        for (int clear : pass.clears)
+            out += "      clears  " + plan.resources[size_t(clear)].name() + "\n";
         for (const PlanSlot& slot : pass.slots) {
             if (slot.use.reads && !slot.use.writes) out += "      reads   " + slot_text(plan, slot) + "\n";
         }
         for (const PlanSlot& slot : pass.slots) {
-            if (slot.use.writes) out += std::string(slot.use.reads ? "      updates " : "      writes  ") + slot_text(plan, slot) + "\n";
+            if (slot.use.writes)
+                out += std::string(slot.use.reads ? "      updates " : "      writes  ") + slot_text(plan, slot) + "\n";
         }
     }
     if (!plan.declined.empty()) out += "\ndeclined (what the scene does not need is not computed):\n";
-    for (const PlanDecline& declined : plan.declined) out += fmt::format("    {}: {}\n", declined.id, declined.reason);
+    for (const PlanDecline& declined : plan.declined)
+        out += fmt::format("    {}: {}\n", declined.id, declined.reason);
     out += "\nresources:\n";
     for (const PlanResource& resource : plan.resources) {
         std::string flags = resource.declaration.persistent ? ", persistent" : "";
         if (resource.needs_previous) flags += ", with last frame's copy";
-        out += fmt::format("    {:<28} {:<44} {:>14} bytes{}\n", resource.name(), shape_text(resource), resource.total_bytes(), flags);
+        out += fmt::format("    {:<28} {:<44} {:>14} bytes{}\n", resource.name(), shape_text(resource),
+                           resource.total_bytes(), flags);
     }
     out += fmt::format("    {:<28} {:<44} {:>14} bytes\n", "total", "", plan.total_bytes());
     return out;
 }
 
 std::string plan_graphviz(const GraphModel& model, const Plan& plan) {
-    std::string out = fmt::format("digraph \"{}\" {{\n  rankdir=LR;\n  node [fontname=\"sans-serif\"];\n", model.file().name);
-    for (const PlanPass& pass : plan.passes) out += fmt::format("  \"pass {0}\" [label=\"{0}\", shape=box, style=filled, fillcolor=\"#ffe0a0\"];\n", pass.id);
+    std::string out =
+        fmt::format("digraph \"{}\" {{\n  rankdir=LR;\n  node [fontname=\"sans-serif\"];\n", model.file().name);
+    for (const PlanPass& pass : plan.passes)
+        out +=
+            fmt::format("  \"pass {0}\" [label=\"{0}\", shape=box, style=filled, fillcolor=\"#ffe0a0\"];\n", pass.id);
     for (const PlanDecline& declined : plan.declined) {
-        out += fmt::format("  \"pass {0}\" [label=\"{0}\\n{1}\", shape=box, style=dashed];\n", declined.id, declined.reason);
+        out += fmt::format("  \"pass {0}\" [label=\"{0}\\n{1}\", shape=box, style=dashed];\n", declined.id,
+                           declined.reason);
     }
     for (const PlanResource& resource : plan.resources) {
-        out += fmt::format("  \"{}\" [label=\"{}\\n{}\\n{}\", shape=ellipse];\n", resource.name(), resource.name(), shape_text(resource),
-                           format_bytes(double(resource.total_bytes())));
+        out += fmt::format("  \"{}\" [label=\"{}\\n{}\\n{}\", shape=ellipse];\n", resource.name(), resource.name(),
+                           shape_text(resource), format_bytes(double(resource.total_bytes())));
     }
     for (const PlanPass& pass : plan.passes) {
         for (const PlanSlot& slot : pass.slots) {
             if (slot.resource < 0) continue;
             const std::string& name = plan.resources[size_t(slot.resource)].name();
-            if (slot.use.reads) out += fmt::format("  \"{}\" -> \"pass {}\"{};\n", name, pass.id, slot.bind.previous ? " [style=dotted]" : "");
+            if (slot.use.reads)
+                out += fmt::format("  \"{}\" -> \"pass {}\"{};\n", name, pass.id,
+                                   slot.bind.previous ? " [style=dotted]" : "");
             if (slot.use.writes) out += fmt::format("  \"pass {}\" -> \"{}\";\n", pass.id, name);
         }
     }

@@ -9,10 +9,14 @@ namespace bounce {
 
 const char* to_string(ResourceKind kind) {
     switch (kind) {
-    case ResourceKind::texture_2d: return "texture_2d";
-    case ResourceKind::texture_2d_array: return "texture_2d_array";
-    case ResourceKind::texture_3d: return "texture_3d";
-    case ResourceKind::buffer: return "buffer";
+    case ResourceKind::texture_2d:
+        return "texture_2d";
+    case ResourceKind::texture_2d_array:
+        return "texture_2d_array";
+    case ResourceKind::texture_3d:
+        return "texture_3d";
+    case ResourceKind::buffer:
+        return "buffer";
     }
     return "";
 }
@@ -25,8 +29,8 @@ Extent Extent::relative_to(const std::string& resource, double scale) {
 void check_resource_name(const std::string& name) {
     static const std::regex form("[a-zA-Z][a-zA-Z0-9]*\\.[a-zA-Z0-9][a-zA-Z0-9_]*");
     if (std::regex_match(name, form)) return;
-    throw Error(fmt::format("'{}' is no resource name: it has one dot and no underscore before it, as gbuffer.normal",
-                            name));
+    throw Error(
+        fmt::format("'{}' is no resource name: it has one dot and no underscore before it, as gbuffer.normal", name));
 }
 
 } // namespace bounce

@@ -33,18 +33,21 @@ void ScriptPass::execute(PassContext& context) {
             if (name == "triangles") return double(context.facts().triangles);
             return context.number(name);
         };
-        for (size_t i = 0; i < dispatch.threads.size(); ++i) threads[int(i)] = evaluate_integer(dispatch.threads[i], lookup, 0);
+        for (size_t i = 0; i < dispatch.threads.size(); ++i)
+            threads[int(i)] = evaluate_integer(dispatch.threads[i], lookup, 0);
     } else {
         // One thread a texel of the named resource, or of the first texture that the shader writes.
         const PlanSlot* over = nullptr;
         for (const PlanSlot& slot : context.plan().slots) {
             bool named = slot.bind.resource == dispatch.resource || slot.use.slot == dispatch.resource;
             bool texture = slot.use.usage != Usage::storage && slot.use.usage != Usage::indirect;
-            if (!over && texture && slot.resource >= 0 && (dispatch.resource.empty() ? slot.use.writes : named)) over = &slot;
+            if (!over && texture && slot.resource >= 0 && (dispatch.resource.empty() ? slot.use.writes : named))
+                over = &slot;
             // Prefer the slot that is written: it may be bound to another mip than the one that is read.
             if (over && named && texture && slot.use.writes && !over->use.writes) over = &slot;
         }
-        if (!over) throw Error(fmt::format("pass '{}' has nothing to dispatch over: give \"dispatch\": [x, y, z]", entry_.id));
+        if (!over)
+            throw Error(fmt::format("pass '{}' has nothing to dispatch over: give \"dispatch\": [x, y, z]", entry_.id));
         threads = context.size(over->use.slot);
     }
     context.dispatch("main", threads);

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -82,6 +83,13 @@ class ReferenceRender {
     const std::vector<Checkpoint>& history() const { return history_; }
     void add_checkpoint();
 
+    /// What a state file says of itself, without its pixels.
+    struct StateHeader {
+        std::string key;
+        int samples = 0, most_samples = 0;
+        std::vector<Checkpoint> history;
+    };
+
     /// All rays of sample `sample` of every pixel, pixel by pixel, for measurements.
     std::vector<TracedRay> rays_of_sample(int sample) const;
     const TraceScene& scene() const { return *scene_; }
@@ -112,5 +120,8 @@ class ReferenceRender {
     struct Centres;
     mutable std::unique_ptr<Centres> centres_;
 };
+
+/// The header of a state file; nothing when it is missing or damaged.
+std::optional<ReferenceRender::StateHeader> read_state_header(const std::filesystem::path& path);
 
 } // namespace bounce

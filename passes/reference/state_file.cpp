@@ -5,11 +5,16 @@
 #include "reference/render.h"
 
 #include <cstring>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 namespace bounce {
 
 static const std::string k_magic = "bounce reference state 1\n";
+
+static ReferenceRender::Checkpoint checkpoint_of(const nlohmann::json& json) {
+    return {json.at("samples").get<int>(), json.at("noise").get<std::map<std::string, double>>()};
+}
 
 void ReferenceRender::save_state(const std::filesystem::path& path) const {
     nlohmann::json header;
@@ -18,6 +23,7 @@ void ReferenceRender::save_state(const std::filesystem::path& path) const {
     header["height"] = height_;
     header["channels"] = k_reference_channels;
     header["samples"] = samples();
+    header["most_samples"] = most_samples();
     for (const Tile& tile : tiles_)
         header["tiles"].push_back(tile.samples);
     header["history"] = nlohmann::json::array();
@@ -48,7 +54,7 @@ void ReferenceRender::load_state(const std::filesystem::path& path) {
         if (header.at("key") != key_) fail("it belongs to another shot, to other settings or to another version");
         counts = header.at("tiles").get<std::vector<int>>();
         for (const auto& entry : header.at("history")) {
-            history.push_back({entry.at("samples").get<int>(), entry.at("noise").get<std::map<std::string, double>>()});
+            history.push_back(checkpoint_of(entry));
         }
     } catch (const nlohmann::json::exception&) {
         fail("its header is damaged");
@@ -65,6 +71,24 @@ void ReferenceRender::load_state(const std::filesystem::path& path) {
     history_ = std::move(history);
     for (size_t h = 0; h < 2; ++h)
         std::memcpy(sums_[h].data(), bytes.data() + line_end + 1 + h * half_size, half_size);
+}
+
+std::optional<ReferenceRender::StateHeader> read_state_header(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string magic, line;
+    if (!std::getline(file, magic) || magic + "\n" != k_magic || !std::getline(file, line)) return std::nullopt;
+    try {
+        const auto json = nlohmann::json::parse(line);
+        ReferenceRender::StateHeader header;
+        header.key = json.at("key").get<std::string>();
+        header.samples = json.at("samples").get<int>();
+        header.most_samples = json.at("most_samples").get<int>();
+        for (const auto& entry : json.at("history"))
+            header.history.push_back(checkpoint_of(entry));
+        return header;
+    } catch (const nlohmann::json::exception&) {
+        return std::nullopt;
+    }
 }
 
 } // namespace bounce

@@ -100,10 +100,10 @@ void note_unread(const json& root, GltfSource& source) {
 std::vector<std::vector<unsigned char>> load_buffers(const json& root, GltfFile& file, ErrorList& errors) {
     std::vector<std::vector<unsigned char>> buffers;
     if (!root.contains("buffers")) return buffers;
-    auto is_viewed = [&](size_t buffer) {
-        const json views = root.value("bufferViews", json::array());
-        return std::any_of(views.begin(), views.end(), [&](const json& view) { return view["buffer"] == buffer; });
-    };
+    std::vector<bool> viewed(root["buffers"].size(), false);
+    if (root.contains("bufferViews"))
+        for (const json& view : root["bufferViews"])
+            viewed[view["buffer"].get<size_t>()] = true;
     for (const json& item : root["buffers"]) {
         std::string what = fmt::format("buffers[{}]", buffers.size());
         size_t length = item["byteLength"].get<size_t>();
@@ -114,8 +114,7 @@ std::vector<std::vector<unsigned char>> load_buffers(const json& root, GltfFile&
             } else if (buffers.size() == 1 && file.binary) {
                 bytes.assign(file.binary->begin(), file.binary->end());
             } else {
-                if (is_viewed(buffers.size() - 1))
-                    throw Error(what + " has no uri, and there is no binary chunk for it");
+                if (viewed[buffers.size() - 1]) throw Error(what + " has no uri, and there is no binary chunk for it");
                 continue; // the specification allows it, for extensions that bring the bytes
             }
             if (bytes.size() < length)

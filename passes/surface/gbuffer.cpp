@@ -7,8 +7,9 @@ class GbufferPass : public Pass {
   public:
     void describe(PassDescription& description) override {
         description.program("draw", {"surface/gbuffer.vert", "surface/gbuffer.frag"});
-        description.parameters.add("cull_back_faces", cull_back_faces_,
-                                   "skip back faces of materials that are not double-sided (the ground rule is two-sided)");
+        description.parameters.add(
+            "cull_back_faces", cull_back_faces_,
+            "skip back faces of materials that are not double-sided (the ground rule is two-sided)");
     }
 
     void declare(Declaration& d) override {
@@ -45,6 +46,7 @@ class GbufferPass : public Pass {
     bool emission_ = false;
 };
 
-BOUNCE_REGISTER_PASS("gbuffer", GbufferPass, "what the camera sees: base colour, normals, roughness and metallic, emission, depth")
+BOUNCE_REGISTER_PASS("gbuffer", GbufferPass,
+                     "what the camera sees: base colour, normals, roughness and metallic, emission, depth")
 
 } // namespace bounce

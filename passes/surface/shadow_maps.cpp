@@ -21,7 +21,8 @@ class ShadowMapsPass : public Pass {
         int views = int(d.facts.spot_lights + d.facts.directional_lights + 6 * d.facts.point_lights);
         d.uses("opaque");
         d.uses("alpha_tested");
-        d.creates("shadow.depth", ResourceKind::texture_2d_array, "depth32f", {resolution_, resolution_, std::max(views, 1)});
+        d.creates("shadow.depth", ResourceKind::texture_2d_array, "depth32f",
+                  {resolution_, resolution_, std::max(views, 1)});
         d.writes("shadow.depth", Usage::depth);
         d.creates_buffer("shadow.views", std::to_string(views), sizeof(ShadowView)).overwritten = true;
         d.writes("shadow.views", Usage::storage);
@@ -30,7 +31,8 @@ class ShadowMapsPass : public Pass {
 
     void execute(PassContext& c) override {
         if (c.iteration == 0) {
-            std::vector<ShadowView> views = shadow_views(lights_of(c.scene()), c.facts().bounds_over_animation, resolution_);
+            std::vector<ShadowView> views =
+                shadow_views(lights_of(c.scene()), c.facts().bounds_over_animation, resolution_);
             c.buffer("shadow.views").update(0, views.size() * sizeof(ShadowView), views.data());
         }
         glEnable(GL_DEPTH_TEST);
@@ -68,6 +70,7 @@ class ShadowMapsPass : public Pass {
     int resolution_ = 2048;
 };
 
-BOUNCE_REGISTER_PASS("shadow_maps", ShadowMapsPass, "depth from every light: spot, directional (fitted to the scene), point (six faces)")
+BOUNCE_REGISTER_PASS("shadow_maps", ShadowMapsPass,
+                     "depth from every light: spot, directional (fitted to the scene), point (six faces)")
 
 } // namespace bounce

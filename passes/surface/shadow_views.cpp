@@ -12,7 +12,8 @@ static glm::mat3 basis_along(glm::vec3 direction) {
 }
 
 /// Infinite perspective with depth = near / distance along the view.
-static ShadowView perspective(glm::vec3 origin, const glm::mat3& basis, float half_angle, float near_plane, int resolution) {
+static ShadowView perspective(glm::vec3 origin, const glm::mat3& basis, float half_angle, float near_plane,
+                              int resolution) {
     ShadowView view;
     float tangent = std::tan(half_angle);
     view.origin = origin;
@@ -65,7 +66,8 @@ std::vector<ShadowView> shadow_views(const std::vector<Light>& lights, const Bou
         } else if (light.type == LightType::spot) {
             // Half-angles beyond 85° would spread the map too thin; the cone's rim beyond it goes unshadowed.
             float half_angle = std::clamp(light.outer_cone, 0.01f, 1.4835f);
-            views.push_back(perspective(light.position, basis_along(light.direction), half_angle, near_plane, resolution));
+            views.push_back(
+                perspective(light.position, basis_along(light.direction), half_angle, near_plane, resolution));
         } else {
             static const glm::vec3 faces[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
             // Slightly wider than a quarter turn, so that filtering near an edge finds texels of the same face.

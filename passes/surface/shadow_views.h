@@ -21,7 +21,8 @@ struct ShadowView {
 };
 static_assert(sizeof(ShadowView) == 112);
 
-/// The views of all lights, in the order of the lights. `resolution` in texels; directional views are fitted to `bounds`.
+/// The views of all lights, in the order of the lights. `resolution` in texels; directional views are fitted to
+/// `bounds`.
 std::vector<ShadowView> shadow_views(const std::vector<Light>& lights, const Bounds& bounds, int resolution);
 
 } // namespace bounce

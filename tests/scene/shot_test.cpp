@@ -103,7 +103,7 @@ TEST_F(ShotTest, EveryKey) {
 TEST_F(ShotTest, AllErrorsAreToldTogether) {
     std::string text = error_of(R"({
         "scene": "trangle.gltf", "widht": 64, "height": 0, "fps": "fast", "diffuse_only": 1,
-        "camera": {"position": [0, 0], "target": [0, 0, 0], "vfov": 40},
+        "camera": {"position": [0, 0], "target": [0, 0, 0], "vfov_degre": 40},
         "lights": [{"type": "spit", "position": [0, 0, 0]},
                    {"type": "spot", "position": [0, 0, 0], "direction": [0, -1, 0], "inner_cone_deg": 50, "outer_cone_deg": 40},
                    {"type": "directional", "direction": [0, 0, 0], "intensity": -1}],
@@ -114,7 +114,7 @@ TEST_F(ShotTest, AllErrorsAreToldTogether) {
     for (const char* part :
          {"trangle.gltf", "unknown key 'widht' (did you mean 'width'?)",
           "height must be a whole number from 1 to 16384", "fps must be a number", "diffuse_only must be true or false",
-          "camera.position must be an array of 3 numbers", "unknown key 'camera.vfov' (did you mean 'vfov_deg'?)",
+          "camera.position must be an array of 3 numbers", "unknown key 'camera.vfov_degre' (did you mean 'vfov_deg'?)",
           "lights[0].type is 'spit'", "did you mean 'spot'?",
           "lights[1].inner_cone_deg (50) must be less than outer_cone_deg (40)",
           "lights[2].direction gives no direction", "lights[2].intensity must be", "lights_mode is 'replce'",

@@ -3,8 +3,8 @@
 from . import atrium_architecture as build
 from . import atrium_furnishing as furnish
 from . import textures
-from .atrium_plan import (ARCADE, COURT_X, COURT_Z, EAVES, HALL_X, HALL_Z, LOWER_CEILING, LOWER_SPRING, UPPER_CEILING, UPPER_FLOOR,
-                          UPPER_SPRING, bays, columns, corners, spans)
+from .atrium_plan import (ARCADE, COURT_X, COURT_Z, EAVES, HALL_X, HALL_Z, LOWER_CEILING, LOWER_SPRING, UPPER_CEILING,
+                          UPPER_FLOOR, UPPER_SPRING, bays, columns, corners, spans)
 from .gltf import Gltf
 from .vector import about_axis, looking_along
 
@@ -24,14 +24,17 @@ def _materials(gltf):
 
     return {
         "stone": gltf.material("stone", colour_texture=stone, roughness=0.9),
-        "ashlar": gltf.material("ashlar", colour_texture=gltf.texture("atrium/ashlar.png", ashlar.colour()), roughness=0.95,
+        "ashlar": gltf.material("ashlar", roughness=0.95,
+                                colour_texture=gltf.texture("atrium/ashlar.png", ashlar.colour()),
                                 normal_texture=gltf.texture("atrium/ashlar_normal.png", ashlar.normals())),
         "plaster": gltf.material("plaster", (1.0, 0.77, 0.55), colour_texture=stone, roughness=1.0),
         "marble": gltf.material("marble", colour_texture=gltf.texture("atrium/marble.png", marble.colour()),
                                 surface_texture=gltf.texture("atrium/marble_surface.png", marble.surface()),
                                 normal_texture=gltf.texture("atrium/marble_normal.png", marble.normals())),
-        "terracotta": gltf.material("terracotta", colour_texture=gltf.texture("atrium/terracotta.png", textures.terracotta(256)), roughness=0.9),
-        "wood": gltf.material("wood", colour_texture=gltf.texture("atrium/wood.png", textures.wood(256)), roughness=0.7),
+        "terracotta": gltf.material("terracotta", roughness=0.9,
+                                    colour_texture=gltf.texture("atrium/terracotta.png", textures.terracotta(256))),
+        "wood": gltf.material("wood", roughness=0.7,
+                              colour_texture=gltf.texture("atrium/wood.png", textures.wood(256))),
         "red": cloth("red_cloth", (0.62, 0.035, 0.03)),
         "green": cloth("green_cloth", (0.04, 0.36, 0.07)),
         "blue": cloth("blue_cloth", (0.035, 0.09, 0.55)),
@@ -43,7 +46,8 @@ def _materials(gltf):
         "iron": gltf.material("iron", (0.10, 0.09, 0.085), metallic=0.0, roughness=0.45),
         "clay": gltf.material("clay", (0.45, 0.20, 0.10), roughness=0.95),
         "soil": gltf.material("soil", (0.05, 0.035, 0.025)),
-        "bronze": gltf.material("bronze", metallic=1.0, colour_texture=gltf.texture("atrium/bronze.png", bronze.colour()),
+        "bronze": gltf.material("bronze", metallic=1.0,
+                                colour_texture=gltf.texture("atrium/bronze.png", bronze.colour()),
                                 surface_texture=gltf.texture("atrium/bronze_surface.png", bronze.surface())),
         "brass": gltf.material("brass", (0.89, 0.66, 0.30), metallic=1.0, roughness=0.22),
         "water": gltf.material("water", (0.02, 0.045, 0.045), roughness=0.06),
@@ -55,8 +59,9 @@ def _turn(degrees):
 
 
 def _masonry(gltf, material):
-    whole = [("outer_walls", build.outer_walls(), "plaster"), ("dado", build.dado(), "ashlar"), ("cornices", build.cornices(), "stone"),
-             ("court_floor", build.court_floor(), "marble"), ("gallery_floors", build.gallery_floors(), "terracotta"),
+    whole = [("outer_walls", build.outer_walls(), "plaster"), ("dado", build.dado(), "ashlar"),
+             ("cornices", build.cornices(), "stone"), ("court_floor", build.court_floor(), "marble"),
+             ("gallery_floors", build.gallery_floors(), "terracotta"),
              ("ceilings", build.ceilings(), "wood"), ("roof", build.roof(), "terracotta")]
     for name, surface, key in whole:
         gltf.node(name, mesh=gltf.mesh(name, [(surface, material[key])]))
@@ -64,7 +69,8 @@ def _masonry(gltf, material):
     frame, leaves = build.door()
     door = gltf.mesh("door", [(frame, material["stone"]), (leaves, material["wood"])])
     beam = gltf.mesh("beam", [(build.beam(), material["wood"])])
-    storeys = (("lower", 0.0, LOWER_SPRING, UPPER_FLOOR, LOWER_CEILING, 0.285), ("upper", UPPER_FLOOR, UPPER_SPRING, EAVES, UPPER_CEILING, 0.25))
+    storeys = (("lower", 0.0, LOWER_SPRING, UPPER_FLOOR, LOWER_CEILING, 0.285),
+               ("upper", UPPER_FLOOR, UPPER_SPRING, EAVES, UPPER_CEILING, 0.25))
     for storey, foot, spring, top, ceiling, radius in storeys:
         column = gltf.mesh(storey + "_column", [(build.column(spring - foot, radius), material["stone"])])
         pier = gltf.mesh(storey + "_pier", [(build.pier(spring - foot, 0.66), material["stone"])])
@@ -84,7 +90,8 @@ def _masonry(gltf, material):
             across = {0.0: (x, z + toward), 180.0: (x, z - toward), 90.0: (x + toward, z), -90.0: (x - toward, z)}[turn]
             wall = {0.0: (x, HALL_Z), 180.0: (x, -HALL_Z), 90.0: (HALL_X, z), -90.0: (-HALL_X, z)}[turn]
             gltf.node(storey + "_beam", mesh=beam, translation=(across[0], ceiling, across[1]), rotation=_turn(turn))
-            gltf.node(storey + "_pilaster", mesh=pilaster, translation=(wall[0], foot, wall[1]), rotation=_turn(turn + 180))
+            gltf.node(storey + "_pilaster", mesh=pilaster, translation=(wall[0], foot, wall[1]),
+                      rotation=_turn(turn + 180))
         for x in (-9.0, -3.0, 3.0, 9.0):
             gltf.node(storey + "_door", mesh=door, translation=(x, foot, -HALL_Z + 0.06))
             gltf.node(storey + "_door", mesh=door, translation=(x, foot, HALL_Z - 0.06), rotation=_turn(180))
@@ -98,19 +105,25 @@ def _cloths(gltf, material):
     cuts = [furnish.curtain(2.2, drop, 7 + k, 71 + k) for k in range(3)]
     over_rail = furnish.tapestry(1.5, 1.9)
     dyes = ("red", "green", "blue")
-    curtains = [gltf.mesh("curtain_" + dye, [(cut[0], material[dye]), (cut[1], material["gold"])]) for dye, cut in zip(dyes, cuts)]
-    tapestries = [gltf.mesh("tapestry_" + dye, [(over_rail[0], material[dye]), (over_rail[1], material["gold"])]) for dye in dyes]
+
+    def dyed(kind, dye, parts):
+        return gltf.mesh(kind + "_" + dye, [(parts[0], material[dye]), (parts[1], material["gold"])])
+
+    curtains = [dyed("curtain", dye, cut) for dye, cut in zip(dyes, cuts)]
+    tapestries = [dyed("tapestry", dye, over_rail) for dye in dyes]
     long_bays = bays()[:14]
     for k, ((x, z), turn) in enumerate(long_bays):
         side, bay = divmod(k, 7)
         if bay % 2 == 1:
             dye = (bay // 2 + 2 * side) % 3
-            gltf.node("curtain_" + dyes[dye], mesh=curtains[dye], translation=(x, LOWER_SPRING - 0.12, z), rotation=_turn(turn))
+            gltf.node("curtain_" + dyes[dye], mesh=curtains[dye], translation=(x, LOWER_SPRING - 0.12, z),
+                      rotation=_turn(turn))
             gltf.node("curtain_rod", mesh=rod, translation=(x, LOWER_SPRING - 0.12, z))
         elif bay in (2, 4):
             dye = (bay // 2 + side) % 3
             toward = -1 if z > 0 else 1
-            gltf.node("tapestry_" + dyes[dye], mesh=tapestries[dye], translation=(x, UPPER_FLOOR + 0.99, z + toward * 0.10), rotation=_turn(turn))
+            gltf.node("tapestry_" + dyes[dye], mesh=tapestries[dye],
+                      translation=(x, UPPER_FLOOR + 0.99, z + toward * 0.10), rotation=_turn(turn))
 
 
 def _furniture(gltf, material):
@@ -138,13 +151,16 @@ def _furniture(gltf, material):
         gltf.node("plant", mesh=plants[k % 2], translation=(x, 0.54, z), rotation=_turn(67.0 * k))
 
     parts = furnish.fountain()
-    gltf.node("fountain", mesh=gltf.mesh("fountain", [(parts[key], material[key]) for key in ("stone", "water", "bronze")]))
-    gltf.node("armillary_sphere", mesh=gltf.mesh("armillary_sphere", [(furnish.armillary_sphere(), material["brass"])]),
-              translation=(0, 2.34, 0))
+    fountain = gltf.mesh("fountain", [(parts[key], material[key]) for key in ("stone", "water", "bronze")])
+    gltf.node("fountain", mesh=fountain)
+    sphere = gltf.mesh("armillary_sphere", [(furnish.armillary_sphere(), material["brass"])])
+    gltf.node("armillary_sphere", mesh=sphere, translation=(0, 2.34, 0))
 
 
 def atrium():
-    gltf = Gltf("atrium", "A court between two storeys of arcades, open to the sky: curtains in three colours, marble, bronze, plants; lit by the sun.")
+    gltf = Gltf("atrium",
+                "A court between two storeys of arcades, open to the sky: curtains in three colours, marble, bronze, "
+                "plants; lit by the sun.")
     material = _materials(gltf)
     _masonry(gltf, material)
     _cloths(gltf, material)

@@ -3,8 +3,8 @@
 import math
 
 from . import shapes
-from .atrium_plan import (ARCADE, ASHLAR_TILE, COURT_X, COURT_Z, EAVES, HALL_X, HALL_Z, LOWER_CEILING, MARBLE_TILE, OPENING, BAY,
-                          STONE_TILE, TERRACOTTA_TILE, TOP, UPPER_CEILING, UPPER_FLOOR, WALL, WOOD_TILE)
+from .atrium_plan import (ARCADE, ASHLAR_TILE, COURT_X, COURT_Z, EAVES, HALL_X, HALL_Z, LOWER_CEILING, MARBLE_TILE,
+                          OPENING, BAY, STONE_TILE, TERRACOTTA_TILE, TOP, UPPER_CEILING, UPPER_FLOOR, WALL, WOOD_TILE)
 from .surface import Surface
 from .vector import cross, normalised, sub
 
@@ -48,7 +48,8 @@ def column(height, radius):
     return surface
 
 
-def pier(height, width, steps=((0.16, 1.18), (0.10, 1.10), (0.06, 1.04)), top=((0.06, 1.05), (0.08, 1.12), (0.10, 1.20))):
+def pier(height, width, steps=((0.16, 1.18), (0.10, 1.10), (0.06, 1.04)),
+         top=((0.06, 1.05), (0.08, 1.12), (0.10, 1.20))):
     """A square pier: stacked slabs for its base and capital."""
     surface, y = Surface(), 0.0
     rows = list(steps) + [(height - sum(h for h, _ in steps) - sum(h for h, _ in top), 1.0)] + list(top)
@@ -62,8 +63,10 @@ def pier(height, width, steps=((0.16, 1.18), (0.10, 1.10), (0.06, 1.04)), top=((
 def pilaster(height):
     """A flat pier against a wall; the wall is behind it, at z = 0."""
     surface, y = Surface(), 0.0
-    for thickness, width, reach in ((0.22, 0.62, 0.22), (0.08, 0.56, 0.19), (height - 0.62, 0.48, 0.15), (0.08, 0.56, 0.19), (0.24, 0.64, 0.24)):
-        surface.append(shapes.box((width, thickness, reach), (0, y + thickness / 2, reach / 2), STONE_TILE, without="-z"))
+    for thickness, width, reach in ((0.22, 0.62, 0.22), (0.08, 0.56, 0.19), (height - 0.62, 0.48, 0.15),
+                                    (0.08, 0.56, 0.19), (0.24, 0.64, 0.24)):
+        surface.append(shapes.box((width, thickness, reach), (0, y + thickness / 2, reach / 2), STONE_TILE,
+                                  without="-z"))
         y += thickness
     return surface
 
@@ -74,7 +77,8 @@ def arch_wall(spring, top):
 
 def arch_moulding(spring):
     """The archivolts of both faces, and a keystone through the wall."""
-    profile = ((0.0, 0.0), (0.0, 0.05), (0.10, 0.05), (0.12, 0.08), (0.20, 0.08), (0.24, 0.03), (0.26, 0.03), (0.26, 0.0))
+    profile = ((0.0, 0.0), (0.0, 0.05), (0.10, 0.05), (0.12, 0.08), (0.20, 0.08), (0.24, 0.03), (0.26, 0.03),
+               (0.26, 0.0))
     surface = Surface()
     one = shapes.archivolt(OPENING, spring, [(a, z + ARCADE / 2) for a, z in profile], 22, STONE_TILE)
     surface.append(one)
@@ -88,7 +92,8 @@ def _keystone(foot):
     outline = ((-low, foot), (low, foot), (high, foot + height), (-high, foot + height))
     surface = Surface()
     for sign in (1.0, -1.0):
-        surface.quad([(x, y, sign * half) for x, y in outline], (0.0, 0.0, sign), [(x / STONE_TILE, -y / STONE_TILE) for x, y in outline])
+        surface.quad([(x, y, sign * half) for x, y in outline], (0.0, 0.0, sign),
+                     [(x / STONE_TILE, -y / STONE_TILE) for x, y in outline])
     for (x0, y0), (x1, y1) in zip(outline, outline[1:] + outline[:1]):
         corners = ((x0, y0, -half), (x1, y1, -half), (x1, y1, half), (x0, y0, half))
         normal = normalised(cross(sub(corners[1], corners[0]), (0.0, 0.0, 1.0)))
@@ -106,7 +111,8 @@ def cornices():
     face_x, face_z = COURT_X - ARCADE / 2, COURT_Z - ARCADE / 2
     surface = Surface()
     for base in (UPPER_FLOOR - 0.42, EAVES - 0.46):
-        profile = ((0.0, 0.0), (0.05, 0.0), (0.05, 0.12), (0.09, 0.14), (0.13, 0.19), (0.15, 0.25), (0.19, 0.25), (0.19, 0.30), (0.22, 0.33),
+        profile = ((0.0, 0.0), (0.05, 0.0), (0.05, 0.12), (0.09, 0.14), (0.13, 0.19), (0.15, 0.25), (0.19, 0.25),
+                   (0.19, 0.30), (0.22, 0.33),
                    (0.26, 0.40), (0.26, 0.44), (0.0, 0.44))
         surface.append(shapes.moulding_round_court(face_x, face_z, [(r, base + y) for r, y in profile], STONE_TILE))
     return surface
@@ -125,15 +131,18 @@ def outer_walls():
     """They end a little below the roof's edge."""
     surface, height = Surface(), TOP - 0.03
     for sign in (1, -1):
-        surface.append(shapes.box((2 * (HALL_X + WALL), height, WALL), (0, height / 2, sign * (HALL_Z + WALL / 2)), STONE_TILE, without="-y"))
-        surface.append(shapes.box((WALL, height, 2 * HALL_Z), (sign * (HALL_X + WALL / 2), height / 2, 0), STONE_TILE, without="-y-z+z"))
+        surface.append(shapes.box((2 * (HALL_X + WALL), height, WALL), (0, height / 2, sign * (HALL_Z + WALL / 2)),
+                                  STONE_TILE, without="-y"))
+        surface.append(shapes.box((WALL, height, 2 * HALL_Z), (sign * (HALL_X + WALL / 2), height / 2, 0), STONE_TILE,
+                                  without="-y-z+z"))
     return surface
 
 
 def _round_the_court(inset, y, tile, up):
     """A horizontal ring from the outer walls to `inset` inside the arcades' axes."""
     x, z, surface = COURT_X - inset, COURT_Z - inset, Surface()
-    for x0, x1, z0, z1 in ((-HALL_X, HALL_X, z, HALL_Z), (-HALL_X, HALL_X, -HALL_Z, -z), (-HALL_X, -x, -z, z), (x, HALL_X, -z, z)):
+    for x0, x1, z0, z1 in ((-HALL_X, HALL_X, z, HALL_Z), (-HALL_X, HALL_X, -HALL_Z, -z), (-HALL_X, -x, -z, z),
+                           (x, HALL_X, -z, z)):
         surface.append(shapes.floor(x0, x1, z0, z1, y, tile, up))
     return surface
 
@@ -166,7 +175,8 @@ def beam():
 
 
 def roof():
-    """A tiled slope from the outer walls' tops down to eaves that stand out over the court, with a fascia board's face below."""
+    """A tiled slope from the outer walls' tops down to eaves that stand out over the court, with a fascia board's
+    face below."""
     outer_x, outer_z, out = HALL_X + WALL, HALL_Z + WALL, 0.42
     inner_x, inner_z = COURT_X - ARCADE / 2 - out, COURT_Z - ARCADE / 2 - out
     surface = Surface()
@@ -182,15 +192,19 @@ def roof():
         normal = (-sign * slope[0], slope[1], 0.0) if axis == 0 else (0.0, slope[1], -sign * slope[0])
         corners = [place(reach_in, inner, -half_in), place(reach_in, inner, half_in), place(reach_out, outer, half_out),
                    place(reach_out, outer, -half_out)]
-        surface.quad(corners, normal, [(c[2 - axis] / TERRACOTTA_TILE, abs(c[axis]) / TERRACOTTA_TILE) for c in corners])
-        corners = [place(reach_in, inner - 0.14, -half_in), place(reach_in, inner - 0.14, half_in), place(reach_in, inner, half_in),
+        surface.quad(corners, normal,
+                     [(c[2 - axis] / TERRACOTTA_TILE, abs(c[axis]) / TERRACOTTA_TILE) for c in corners])
+        corners = [place(reach_in, inner - 0.14, -half_in), place(reach_in, inner - 0.14, half_in),
+                   place(reach_in, inner, half_in),
                    place(reach_in, inner, -half_in)]
         normal = tuple(-sign * float(k == axis) for k in range(3))
         surface.quad(corners, normal, [(c[2 - axis] / TERRACOTTA_TILE, -c[1] / TERRACOTTA_TILE) for c in corners])
         back = reach_in + out
-        corners = [place(reach_in, inner - 0.14, -half_in), place(reach_in, inner - 0.14, half_in), place(back, inner - 0.14, half_in + out),
+        corners = [place(reach_in, inner - 0.14, -half_in), place(reach_in, inner - 0.14, half_in),
+                   place(back, inner - 0.14, half_in + out),
                    place(back, inner - 0.14, -half_in - out)]
-        surface.quad(corners, (0.0, -1.0, 0.0), [(c[2 - axis] / TERRACOTTA_TILE, c[axis] / TERRACOTTA_TILE) for c in corners])
+        surface.quad(corners, (0.0, -1.0, 0.0),
+                     [(c[2 - axis] / TERRACOTTA_TILE, c[axis] / TERRACOTTA_TILE) for c in corners])
     return surface
 
 

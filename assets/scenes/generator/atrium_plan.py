@@ -1,4 +1,5 @@
-"""The measures that the atrium's parts share, in metres. x runs along the court, y up, z across; the origin is the court's middle."""
+"""The measures that the atrium's parts share, in metres. x runs along the court, y up, z across; the origin is the
+court's middle."""
 
 BAY = 3.0                        # column to column
 COURT_X, COURT_Z = 10.5, 4.5     # half the court, to the columns' axes: 7 by 3 bays
@@ -19,7 +20,8 @@ def long_side_columns():
 
 
 def bays():
-    """(position of the bay's middle on the arcade's axis, degrees about y that turn +z toward the court) of all twenty bays."""
+    """(position of the bay's middle on the arcade's axis, degrees about y that turn +z toward the court) of all
+    twenty bays."""
     result = []
     for side, turn in ((1.0, 180.0), (-1.0, 0.0)):
         result += [((-COURT_X + BAY * (k + 0.5), side * COURT_Z), turn) for k in range(7)]

@@ -1,8 +1,9 @@
 """The measured Cornell box, ten times its size (5.56 m instead of 0.556 m).
 
 Geometry, reflectances, emission and camera: Cornell University Program of Computer Graphics, "Cornell Box Data",
-https://www.graphics.cornell.edu/online/box/data.html. The published millimetres are read as centimetres; +Y is up already.
-`cornell` has its lamp switched off and a spot in its place; `cornell_lamp` has the lamp on and no other light.
+https://www.graphics.cornell.edu/online/box/data.html. The published millimetres are read as centimetres; +Y is up
+already. `cornell` has its lamp switched off and a spot in its place; `cornell_lamp` has the lamp on and no other
+light.
 """
 
 import math
@@ -104,7 +105,9 @@ def _box(name, about, lamp_is_on):
 
 
 def cornell():
-    gltf = _box("cornell", "The measured Cornell box, ten times its size, its lamp switched off, lit by a spot in the ceiling.", False)
+    gltf = _box("cornell",
+                "The measured Cornell box, ten times its size, its lamp switched off, lit by a spot in the ceiling.",
+                False)
     gltf.spot("spot", scale(_SPOT, _METRES), looking_along((0, -1, 0)), _SPOT_INTENSITY, _SPOT_INNER, _SPOT_OUTER)
     return gltf
 

@@ -1,7 +1,9 @@
-"""`gallery`: a closed dark room of four alcoves over a polished floor, lit by nothing but emissive strips and one glowing picture.
+"""`gallery`: a closed dark room of four alcoves over a polished floor, lit by nothing but emissive strips and one
+glowing picture.
 
-The strips of the alcoves are 4, 2, 1 and 0.5 voxels wide in a grid of 128 voxels a side round the scene (a cube whose side is the longest edge
-times 1 + 2/128). Each sends out the same flux, so that what a method loses with the width shows at once.
+The strips of the alcoves are 4, 2, 1 and 0.5 voxels wide in a grid of 128 voxels a side round the scene (a cube whose
+side is the longest edge times 1 + 2/128). Each sends out the same flux, so that what a method loses with the width
+shows at once.
 """
 
 import math
@@ -27,15 +29,18 @@ def _room():
         walls.append(shapes.box((2 * (x + w), _HEIGHT, w), (0, _HEIGHT / 2, sign * (z + w / 2)), without="-y+y"))
         walls.append(shapes.box((w, _HEIGHT, 2 * z), (sign * (x + w / 2), _HEIGHT / 2, 0), without="-y+y-z+z"))
     for k in (-1, 0, 1):
-        walls.append(shapes.box((_FIN, _HEIGHT, _FIN_DEPTH), (k * _ALCOVE, _HEIGHT / 2, -z + _FIN_DEPTH / 2), without="-y+y-z"))
+        walls.append(shapes.box((_FIN, _HEIGHT, _FIN_DEPTH), (k * _ALCOVE, _HEIGHT / 2, -z + _FIN_DEPTH / 2),
+                                without="-y+y-z"))
     slab = (2 * (x + w), w, 2 * (z + w))
-    return {"wall": walls, "floor": shapes.box(slab, (0, -w / 2, 0)), "ceiling": shapes.box(slab, (0, _HEIGHT + w / 2, 0))}
+    return {"wall": walls, "floor": shapes.box(slab, (0, -w / 2, 0)),
+            "ceiling": shapes.box(slab, (0, _HEIGHT + w / 2, 0))}
 
 
 def _picture_frame(width, height):
     """(canvas, frame) against a wall at z = 0, the canvas's middle at the origin."""
     canvas = Surface()
-    corners = ((-width / 2, -height / 2, 0.03), (width / 2, -height / 2, 0.03), (width / 2, height / 2, 0.03), (-width / 2, height / 2, 0.03))
+    corners = ((-width / 2, -height / 2, 0.03), (width / 2, -height / 2, 0.03), (width / 2, height / 2, 0.03),
+               (-width / 2, height / 2, 0.03))
     canvas.quad(corners, (0.0, 0.0, 1.0))
     frame, edge = Surface(), 0.09
     for sign in (-1, 1):
@@ -48,7 +53,8 @@ def knot(radius, thickness, segments, sides):
     """A trefoil knot about the origin."""
     def centre(t):
         reach = 2.0 + math.cos(3 * t)
-        return (radius / 3 * reach * math.cos(2 * t), radius / 3 * math.sin(3 * t), radius / 3 * reach * math.sin(2 * t))
+        return (radius / 3 * reach * math.cos(2 * t), radius / 3 * math.sin(3 * t),
+                radius / 3 * reach * math.sin(2 * t))
 
     def position_at(u, v):
         t, a = 2 * math.pi * u, 2 * math.pi * v
@@ -65,8 +71,9 @@ def knot(radius, thickness, segments, sides):
 
 
 def gallery():
-    gltf = Gltf("gallery", "A closed dark room of four alcoves over a polished floor; emissive strips 4, 2, 1 and 0.5 voxels wide at 128 voxels a side, and a "
-                "glowing picture. No other light.")
+    gltf = Gltf("gallery",
+                "A closed dark room of four alcoves over a polished floor; emissive strips 4, 2, 1 and 0.5 voxels wide "
+                "at 128 voxels a side, and a glowing picture. No other light.")
     material = {
         "wall": gltf.material("wall", (0.52, 0.50, 0.47), roughness=0.95),
         "ceiling": gltf.material("ceiling", (0.60, 0.60, 0.60), roughness=1.0),
@@ -77,9 +84,11 @@ def gallery():
         "copper": gltf.material("copper", (0.93, 0.58, 0.44), metallic=1.0, roughness=0.28),
         "lacquer": gltf.material("lacquer", (0.35, 0.025, 0.02), roughness=0.12),
         "porcelain": gltf.material("porcelain", (0.72, 0.74, 0.76), roughness=0.3),
-        "canvas": gltf.material("canvas", roughness=0.9, colour_texture=gltf.texture("gallery/canvas.png", textures.canvas(192, 128), clamp=True)),
+        "canvas": gltf.material("canvas", roughness=0.9, colour_texture=gltf.texture(
+            "gallery/canvas.png", textures.canvas(192, 128), clamp=True)),
         "glow": gltf.material("glowing_picture", (0.02, 0.02, 0.02), roughness=0.4, emission=(2.4, 2.4, 2.4),
-                              emission_texture=gltf.texture("gallery/glow.png", textures.stained_glass(192, 128), clamp=True)),
+                              emission_texture=gltf.texture(
+                                  "gallery/glow.png", textures.stained_glass(192, 128), clamp=True)),
     }
     for key, surface in _room().items():
         gltf.node(key, mesh=gltf.mesh(key, [(surface, material[key])]))
@@ -92,21 +101,24 @@ def gallery():
         strip = shapes.box((width, 2.8, 0.03), (0, 1.9, 0.015), without="-z")
         gltf.node(name, mesh=gltf.mesh(name, [(strip, glow)]), translation=(middle - 0.55, 0, -_HALF_Z))
 
-    pedestal = gltf.mesh("pedestal", [(shapes.box((0.6, 1.0, 0.6), (0, 0.5, 0)).append(shapes.box((0.7, 0.06, 0.7), (0, 0.03, 0))), material["pedestal"])])
-    vase = atrium_furnishing.vase()
-    exhibits = (("ball", shapes.ball(0.36, 40, 24), "chrome", 1.36), ("knot", knot(0.42, 0.10, 120, 14), "copper", 1.42),
-                ("vase", vase, "porcelain", 1.0), ("sphere", atrium_furnishing.armillary_sphere(), "lacquer", 1.56))
+    plinth = shapes.box((0.6, 1.0, 0.6), (0, 0.5, 0)).append(shapes.box((0.7, 0.06, 0.7), (0, 0.03, 0)))
+    pedestal = gltf.mesh("pedestal", [(plinth, material["pedestal"])])
+    exhibits = (("ball", shapes.ball(0.36, 40, 24), "chrome", 1.36),
+                ("knot", knot(0.42, 0.10, 120, 14), "copper", 1.42),
+                ("vase", atrium_furnishing.vase(), "porcelain", 1.0),
+                ("sphere", atrium_furnishing.armillary_sphere(), "lacquer", 1.56))
     for k, (name, surface, key, height) in enumerate(exhibits):
         x, z = (k - 1.5) * _ALCOVE + 0.5, -2.0
         gltf.node("pedestal", mesh=pedestal, translation=(x, 0, z))
-        gltf.node(name, mesh=gltf.mesh(name, [(surface, material[key])]), translation=(x, height, z), rotation=about_axis((0, 1, 0), 30.0 * k))
-    gltf.node("lacquer_cube", mesh=gltf.mesh("lacquer_cube", [(shapes.box((0.7, 0.7, 0.7), (0, 0.35, 0)), material["lacquer"])]),
-              translation=(-2.6, 0, 0.5), rotation=about_axis((0, 1, 0), 28.0))
+        gltf.node(name, mesh=gltf.mesh(name, [(surface, material[key])]), translation=(x, height, z),
+                  rotation=about_axis((0, 1, 0), 30.0 * k))
+    cube = gltf.mesh("lacquer_cube", [(shapes.box((0.7, 0.7, 0.7), (0, 0.35, 0)), material["lacquer"])])
+    gltf.node("lacquer_cube", mesh=cube, translation=(-2.6, 0, 0.5), rotation=about_axis((0, 1, 0), 28.0))
 
     canvas, frame = _picture_frame(2.4, 1.6)
     for name, key, x, turn in (("picture", "canvas", _HALF_X, -90.0), ("glowing_picture", "glow", -_HALF_X, 90.0)):
-        gltf.node(name, mesh=gltf.mesh(name, [(canvas, material[key]), (frame, material["frame"])]), translation=(x, 1.9, 0.8),
-                  rotation=about_axis((0, 1, 0), turn))
+        gltf.node(name, mesh=gltf.mesh(name, [(canvas, material[key]), (frame, material["frame"])]),
+                  translation=(x, 1.9, 0.8), rotation=about_axis((0, 1, 0), turn))
 
     gltf.camera("toward the alcoves", _EYE, looking_along(tuple(t - e for t, e in zip(_TARGET, _EYE))), _VFOV, 16 / 9)
     return gltf

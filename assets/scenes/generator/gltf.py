@@ -1,7 +1,8 @@
 """Writes glTF 2.0: one .gltf and one .bin a scene, byte for byte the same on every machine.
 
-`Gltf` collects materials, textures, meshes, nodes, lights, cameras and one animation in the order they are added; `files()`
-returns what to write. Units are glTF's: metres, right-handed, Y up, radians inside, degrees where a person types them.
+`Gltf` collects materials, textures, meshes, nodes, lights, cameras and one animation in the order they are added;
+`files()` returns what to write. Units are glTF's: metres, right-handed, Y up, radians inside, degrees where a person
+types them.
 """
 
 import json
@@ -24,7 +25,8 @@ class Gltf:
         self.binary = bytearray()
         self.views, self.accessors = [], []
         self.materials, self.textures, self.samplers, self.images = [], [], [], []
-        self.meshes, self.nodes, self.cameras, self.lights, self.channels, self.animation_samplers = [], [], [], [], [], []
+        self.meshes, self.nodes, self.cameras, self.lights = [], [], [], []
+        self.channels, self.animation_samplers = [], []
         self.roots = []
         self.surfaces = []  # (Surface, its glTF primitive)
         self.extensions = set()
@@ -180,7 +182,8 @@ class Gltf:
         if self.lights:
             document["extensions"] = {"KHR_lights_punctual": {"lights": self.lights}}
         if self.channels:
-            document["animations"] = [{"name": self.name, "channels": self.channels, "samplers": self.animation_samplers}]
+            document["animations"] = [{"name": self.name, "channels": self.channels,
+                                       "samplers": self.animation_samplers}]
         for key, rows in (("nodes", self.nodes), ("meshes", self.meshes), ("materials", self.materials),
                           ("textures", self.textures), ("samplers", self.samplers), ("images", self.images),
                           ("cameras", self.cameras), ("accessors", self.accessors), ("bufferViews", self.views)):

@@ -21,7 +21,8 @@ def _weights(size, cells):
 
 
 def field(width, height, cells_x, cells_y, octaves=4, seed=0):
-    """width x height values in [0, 1], row by row: `octaves` layers of value noise, each twice as fine and half as strong."""
+    """width x height values in [0, 1], row by row: `octaves` layers of value noise, each twice as fine and half as
+    strong."""
     total = [0.0] * (width * height)
     strength, sum_of_strengths = 1.0, 0.0
     for octave in range(octaves):

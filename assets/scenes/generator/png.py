@@ -1,7 +1,7 @@
 """PNG, encoded here because the bytes that zlib makes depend on its version.
 
-The whole picture takes the one filter (none, sub, up) that codes shortest, and is stored as one deflate block (RFC 1951)
-of literals under a Huffman code made for it.
+The whole picture takes the one filter (none, sub, up) that codes shortest, and is stored as one deflate block (RFC
+1951) of literals under a Huffman code made for it.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""The shapes that scenes are built of. Texture coordinates are metres divided by `tile`, the texture's size in metres."""
+"""The shapes that scenes are built of. Texture coordinates are metres divided by `tile`, the texture's size."""
 
 import math
 
@@ -56,8 +56,8 @@ def _profile_normals(points):
 
 
 def turned(profile, segments, tile=1.0):
-    """A solid of revolution about y. `profile` is a list of smooth runs of (radius, height) from bottom to top; where one run
-    ends and the next begins there is an edge."""
+    """A solid of revolution about y. `profile` is a list of smooth runs of (radius, height) from bottom to top;
+    where one run ends and the next begins there is an edge."""
     surface = Surface()
     widest = max(r for run in profile for r, _ in run)
     turns = max(1, round(2 * math.pi * widest / tile))
@@ -107,8 +107,8 @@ def ball(radius, segments, rings, tile=1.0):
 
 
 def moulding_round_court(half_x, half_z, profile, tile=1.0):
-    """A moulding that runs round the inside of a rectangular court. `profile` is a list of straight runs' points (reach into the court,
-    height), from bottom to top; corners are mitred."""
+    """A moulding that runs round the inside of a rectangular court. `profile` is a list of straight runs' points
+    (reach into the court, height), from bottom to top; corners are mitred."""
     surface = Surface()
     for (r0, y0), (r1, y1) in zip(profile, profile[1:]):
         dr, dy = r1 - r0, y1 - y0
@@ -127,8 +127,8 @@ def moulding_round_court(half_x, half_z, profile, tile=1.0):
 
 
 def arch(width, opening, spring, top, depth, segments, tile=1.0):
-    """A wall in the xy plane, `width` wide from `spring` to `top`, with a half-round opening of radius `opening` in its lower edge: both faces
-    and the soffit."""
+    """A wall in the xy plane, `width` wide from `spring` to `top`, with a half-round opening of radius `opening` in
+    its lower edge: both faces and the soffit."""
     surface = Surface()
     arc_points = [(opening * math.cos(math.pi * k / segments), spring + opening * math.sin(math.pi * k / segments))
                   for k in range(segments + 1)]
@@ -157,7 +157,8 @@ def arch(width, opening, spring, top, depth, segments, tile=1.0):
 
 
 def archivolt(opening, spring, profile, segments, tile=1.0):
-    """A moulding that follows a half-round arch. `profile` runs from the opening's edge outward as (added radius, reach toward +z) points."""
+    """A moulding that follows a half-round arch. `profile` runs from the opening's edge outward as (added radius,
+    reach toward +z) points."""
     surface = Surface()
     for (a0, z0), (a1, z1) in zip(profile, profile[1:]):
         da, dz = a1 - a0, z1 - z0
@@ -169,15 +170,16 @@ def archivolt(opening, spring, profile, segments, tile=1.0):
             c, s = math.cos(angle), math.sin(angle)
             added, z = (a0, z0) if j == 0 else (a1, z1)
             r = opening + added
-            return ((r * c, spring + r * s, z), (radial * c, radial * s, forward), (r * angle / tile, (added + z) / tile))
+            return ((r * c, spring + r * s, z), (radial * c, radial * s, forward),
+                    (r * angle / tile, (added + z) / tile))
 
         surface.grid(segments, 1, vertex_at)
     return surface
 
 
 def sheet(columns, rows, position_at, uv_at):
-    """A smooth sheet. Its normals come from differences of position_at(u, v), u a little beyond [0, 1], and point to the side from which u runs
-    to the right when v runs down."""
+    """A smooth sheet. Its normals come from differences of position_at(u, v), u a little beyond [0, 1], and point
+    to the side from which u runs to the right when v runs down."""
     surface = Surface()
     step = 1e-3
 

@@ -5,7 +5,8 @@ Source of both tables: CIE 15, Colorimetry. Spectra run from 400 to 700 nm, as t
 
 _FIRST_NM, _STEP_NM = 400, 10
 
-_X_BAR = (0.01431, 0.04351, 0.13438, 0.2839, 0.34828, 0.3362, 0.2908, 0.19536, 0.09564, 0.03201, 0.0049, 0.0093, 0.06327,
+_X_BAR = (0.01431, 0.04351, 0.13438, 0.2839, 0.34828, 0.3362, 0.2908, 0.19536, 0.09564, 0.03201, 0.0049, 0.0093,
+          0.06327,
           0.1655, 0.2904, 0.43345, 0.5945, 0.7621, 0.9163, 1.0263, 1.0622, 1.0026, 0.85445, 0.6424, 0.4479, 0.2835,
           0.1649, 0.0874, 0.04677, 0.0227, 0.011359)
 _Y_BAR = (0.000396, 0.00121, 0.004, 0.0116, 0.023, 0.038, 0.06, 0.09098, 0.13902, 0.20802, 0.323, 0.503, 0.71, 0.862,
@@ -14,8 +15,10 @@ _Y_BAR = (0.000396, 0.00121, 0.004, 0.0116, 0.023, 0.038, 0.06, 0.09098, 0.13902
 _Z_BAR = (0.06785, 0.2074, 0.6456, 1.3856, 1.74706, 1.77211, 1.6692, 1.28764, 0.81295, 0.46518, 0.272, 0.1582, 0.07825,
           0.04216, 0.0203, 0.00875, 0.0039, 0.0021, 0.00165, 0.0011, 0.0008, 0.00034, 0.00019, 0.00005, 0.00002, 0.0,
           0.0, 0.0, 0.0, 0.0, 0.0)
-_D65 = (82.7549, 91.486, 93.4318, 86.6823, 104.865, 117.008, 117.812, 114.861, 115.923, 108.811, 109.354, 107.802, 104.79,
-        107.689, 104.405, 104.046, 100.0, 96.3342, 95.788, 88.6856, 90.0062, 89.5991, 87.6987, 83.2886, 83.6992, 80.0268,
+_D65 = (82.7549, 91.486, 93.4318, 86.6823, 104.865, 117.008, 117.812, 114.861, 115.923, 108.811, 109.354, 107.802,
+        104.79,
+        107.689, 104.405, 104.046, 100.0, 96.3342, 95.788, 88.6856, 90.0062, 89.5991, 87.6987, 83.2886, 83.6992,
+        80.0268,
         80.2146, 82.2778, 78.2842, 69.7213, 71.6091)
 
 # IEC 61966-2-1, XYZ (white D65, Y = 1) to linear sRGB
@@ -37,7 +40,8 @@ def interpolated(samples, nm):
 
 
 def _integrate(spectrum):
-    """XYZ of spectrum(nm), trapezoids of 4 nm (the Cornell box's own spacing); Y of an equal-energy spectrum of 1 is 1."""
+    """XYZ of spectrum(nm), trapezoids of 4 nm (the Cornell box's own spacing); Y of an equal-energy spectrum of 1
+    is 1."""
     total, luminous = [0.0, 0.0, 0.0], 0.0
     for nm in range(400, 701, 4):
         weight = 0.5 if nm in (400, 700) else 1.0
@@ -60,5 +64,6 @@ def albedo(samples):
 
 
 def radiance(samples):
-    """Linear sRGB of an emission spectrum, scaled so that an equal-energy spectrum of 1 has luminance 1. Negative parts are cut."""
+    """Linear sRGB of an emission spectrum, scaled so that an equal-energy spectrum of 1 has luminance 1. Negative
+    parts are cut."""
     return tuple(max(0.0, c) for c in _linear_srgb(_integrate(lambda nm: interpolated(samples, nm))))

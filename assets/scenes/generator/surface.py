@@ -1,7 +1,7 @@
 """A triangle surface under construction: positions, normals, texture coordinates, indices.
 
-Counter-clockwise is the side its normals point to: `triangle` turns the corners when they are given the other way round, and
-leaves out triangles without area (the poles of a turned shape).
+Counter-clockwise is the side its normals point to: `triangle` turns the corners when they are given the other way
+round, and leaves out triangles without area (the poles of a turned shape).
 """
 
 from .vector import add, cross, dot, length, normalised, rotate, sub

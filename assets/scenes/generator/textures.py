@@ -1,4 +1,5 @@
-"""Procedural textures. Colours are given linear and stored as sRGB; every texture repeats at its edges unless it says otherwise."""
+"""Procedural textures. Colours are given linear and stored as sRGB; every texture repeats at its edges unless it says
+otherwise."""
 
 import math
 
@@ -59,7 +60,8 @@ def stone(size):
 
 
 class Ashlar:
-    """Dressed blocks in six courses of three, every other course shifted by half a block. Colour and normals of the same wall."""
+    """Dressed blocks in six courses of three, every other course shifted by half a block. Colour and normals of the
+    same wall."""
     _COURSES, _BLOCKS = 6, 3
 
     def __init__(self, size):
@@ -75,11 +77,13 @@ class Ashlar:
                 along = x * self._BLOCKS / size + 0.5 * (row % 2) + 0.015 * (wobble[k] - 0.5)
                 block = math.floor(along) % self._BLOCKS
                 course, along = course % 1.0, along % 1.0
-                edge = min(min(course, 1 - course) / self._COURSES, min(along, 1 - along) / self._BLOCKS)  # share of the picture
+                edge = min(min(course, 1 - course) / self._COURSES,
+                           min(along, 1 - along) / self._BLOCKS)  # share of the picture
                 face = _smooth(0.002, 0.009, edge)
                 self.heights.append(3.0 * face + 0.9 * (grain[k] - 0.5) + 1.2 * (stains[k] - 0.5))
                 own = hashed(block, row, 9)
-                self.tones.append((0.55 + 0.45 * face) * (0.80 + 0.20 * own + 0.22 * (stains[k] - 0.5) + 0.10 * (grain[k] - 0.5)))
+                wear = 0.22 * (stains[k] - 0.5) + 0.10 * (grain[k] - 0.5)
+                self.tones.append((0.55 + 0.45 * face) * (0.80 + 0.20 * own + wear))
                 self.hues.append(0.65 * hashed(block, row, 10) + 0.35 * stains[k])
 
     def colour(self):
@@ -93,7 +97,8 @@ class Ashlar:
 
 
 class MarbleFloor:
-    """Two by two slabs, cream and brown in turn, a dark cabochon where their corners meet. Colour, normals and roughness."""
+    """Two by two slabs, cream and brown in turn, a dark cabochon where their corners meet. Colour, normals and
+    roughness."""
 
     def __init__(self, size):
         self.size = size
@@ -141,7 +146,8 @@ def terracotta(size):
         u, v = 6 * x / size, 6 * y / size
         i, j = int(u), int(v)
         edge = min(u - i, 1 - u + i, v - j, 1 - v + j)
-        tone = (0.5 + 0.5 * _smooth(0.01, 0.06, edge)) * (0.75 + 0.35 * hashed(i, j, 22) + 0.3 * (stains[y * size + x] - 0.5))
+        tone = (0.5 + 0.5 * _smooth(0.01, 0.06, edge)) * (0.75 + 0.35 * hashed(i, j,
+                22) + 0.3 * (stains[y * size + x] - 0.5))
         return _srgb([c * tone for c in _mix((0.42, 0.185, 0.095), (0.46, 0.25, 0.14), hashed(i, j, 23))])
     return _picture(size, size, 3, pixel_at)
 
@@ -238,7 +244,8 @@ def canvas(width, height):
 def stained_glass(width, height):
     """Panes of coloured light between dark leads, brighter toward the middle. Does not repeat."""
     cell = 32
-    glass = ((1.0, 0.16, 0.05), (0.08, 0.30, 1.0), (1.0, 0.66, 0.12), (0.10, 0.75, 0.30), (0.85, 0.80, 0.70), (0.55, 0.08, 0.75))
+    glass = ((1.0, 0.16, 0.05), (0.08, 0.30, 1.0), (1.0, 0.66, 0.12), (0.10, 0.75, 0.30), (0.85, 0.80, 0.70),
+             (0.55, 0.08, 0.75))
 
     def pixel_at(x, y):
         near = []
@@ -250,5 +257,6 @@ def stained_glass(width, height):
         near.sort()
         lead = math.sqrt(near[1][0]) - math.sqrt(near[0][0]) < 2.6
         colour = glass[int(6 * hashed(near[0][1] + 64, near[0][2] + 64, 73))]
-        return (0, 0, 0) if lead else _srgb([c * (0.65 + 0.35 * hashed(near[0][1] + 64, near[0][2] + 64, 74)) for c in colour])
+        return (0, 0, 0) if lead else _srgb([c * (0.65 + 0.35 * hashed(near[0][1] + 64, near[0][2] + 64,
+                74)) for c in colour])
     return _picture(width, height, 3, pixel_at)

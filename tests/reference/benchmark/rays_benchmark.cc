@@ -1,5 +1,5 @@
-// Rays per second of the reference against a bare Embree loop over the very same rays, measured in turns so that both see
-// the same machine. `share` is the ratio. Usage: bounce_benchmark_reference [benchmark options] [SHOT or .gltf …]
+// Rays per second of the reference against a bare Embree loop over the very same rays, measured in turns so that both
+// see the same machine. `share` is the ratio. Usage: bounce_benchmark_reference [benchmark options] [SHOT or .gltf …]
 
 #include "core/error.h"
 #include "reference/geometry.h"

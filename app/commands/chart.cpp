@@ -1,0 +1,106 @@
+// bounce chart: error against time, over shots, graphs and parameters.
+#include "app/experiments/chart.h"
+#include "app/commands/command.h"
+#include "app/commands/session_options.h"
+#include "app/hosts/headless.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "scene/shot.h"
+
+#include <fmt/format.h>
+#include <regex>
+
+namespace bounce {
+
+namespace {
+
+struct ChartArguments {
+    std::vector<std::string> shots, sets, merge;
+    std::string graphs = k_default_graph, sweep, size = "320x180", output, shard;
+    int warm_up = 3, frames = 10, samples = 0, device = -1;
+    double noise = 0.01;
+};
+
+/// "2/8": the third of eight.
+std::pair<int, int> parse_shard(const std::string& text) {
+    if (text.empty()) return {0, 1};
+    static const std::regex form("([0-9]{1,6})/([0-9]{1,6})");
+    std::smatch match;
+    if (std::regex_match(text, match, form)) {
+        int i = std::stoi(match[1]), n = std::stoi(match[2]);
+        if (n >= 1 && i < n) return {i, n};
+    }
+    throw Error("--shard " + text + ": it is written i/n with i = 0 … n − 1");
+}
+
+int run(const ChartArguments& a) {
+    if (!a.merge.empty()) {
+        std::vector<std::filesystem::path> folders(a.merge.begin(), a.merge.end());
+        merge_charts(folders, a.output);
+        fmt::print("{}/chart.html\n", a.output);
+        return 0;
+    }
+    if (a.shots.empty()) throw Error("chart: name at least one shot");
+    if (a.frames < 1 || a.warm_up < 0 || a.frames > 100000 || a.warm_up > 100000)
+        throw Error("--frames is at least 1 and --warmup at least 0");
+    if (a.samples == 0 && !(a.noise > 0 && a.noise < 1)) throw Error("--noise is between 0 and 1");
+    SessionArguments shared;
+    shared.sets = a.sets;
+    shared.size = a.size;
+    SessionOptions options = shared.options();
+    std::vector<ParameterValues> combinations = {ParameterValues{}};
+    if (!a.sweep.empty()) combinations = load_sweep(a.sweep).combinations();
+    ChartPlan plan;
+    plan.folder = a.output;
+    std::tie(plan.shard, plan.shards) = parse_shard(a.shard);
+    for (const std::string& shot : a.shots) {
+        for (const std::string& graph : split(a.graphs, ',')) {
+            find_graph(graph); // a wrong name is told before anything is computed
+            for (const ParameterValues& values : combinations) {
+                PointTask task;
+                task.shot = shot;
+                task.graph = graph;
+                task.values = options.sets;
+                task.values.insert(task.values.end(), values.begin(), values.end());
+                task.size = *options.size;
+                task.warm_up = a.warm_up;
+                task.frames = a.frames;
+                task.reference_noise = a.noise;
+                task.reference_samples = a.samples;
+                plan.tasks.push_back(task);
+            }
+        }
+        load_shot(shot);
+    }
+    HeadlessContext context(a.device);
+    run_chart(plan, [](const std::string& line) {
+        fmt::print("{}\n", line);
+        std::fflush(stdout);
+    });
+    fmt::print("{}/chart.html\n", a.output);
+    return 0;
+}
+
+} // namespace
+
+void add_chart_command(CLI::App& app, CommandFunction& chosen) {
+    auto* command = app.add_subcommand("chart", "chart error against time over shots, graphs and parameters");
+    auto a = std::make_shared<ChartArguments>();
+    command->add_option("shots", a->shots, "shots or scenes");
+    command->add_option("--graphs,-g", a->graphs, "graphs, separated by commas")->capture_default_str();
+    command->add_option("--sweep", a->sweep, "a sweep: name or .json (base values and lists to permute)");
+    command->add_option("--set", a->sets, "a parameter for every point: pass.name=value")->allow_extra_args(false);
+    command->add_option("--size", a->size, "WxH of every picture")->capture_default_str();
+    command->add_option("--warmup", a->warm_up, "frames before timing starts")->capture_default_str();
+    command->add_option("--frames", a->frames, "frames that are timed")->capture_default_str();
+    command->add_option("--noise", a->noise, "relative noise of the references")->capture_default_str();
+    command->add_option("--spp", a->samples, "samples a pixel of the references, instead of --noise");
+    command->add_option("--device", a->device, "which EGL device");
+    command->add_option("--shard", a->shard, "i/n: measure only every n-th point, from the i-th (0 … n − 1)");
+    command->add_option("--merge", a->merge, "join the points of these folders instead of measuring");
+    command->add_option("-o,--output", a->output, "the folder for chart.csv, .json, .svg, .html and the points")
+        ->required();
+    command->callback([a, &chosen] { chosen = [a] { return run(*a); }; });
+}
+
+} // namespace bounce

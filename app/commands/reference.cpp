@@ -1,0 +1,209 @@
+// bounce reference: the path-traced truth of a shot, to a file.
+#include "app/capture.h"
+#include "app/commands/command.h"
+#include "app/progress.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "reference/reference_image.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+namespace bounce {
+
+namespace {
+
+struct ReferenceArguments {
+    std::string shot, output, resource, size;
+    std::string bounces = "unlimited";
+    int samples = 0, frame = 0;
+    double noise = 0;
+    float exposure = 0;
+    bool no_cache = false, quiet = false;
+    ReferenceSettings settings;
+};
+
+std::atomic<bool> interrupted{false};
+
+/// While it lives, Ctrl-C (and a scheduler's request to end) asks for a stop; a second one ends the program at once.
+class InterruptGuard {
+  public:
+    InterruptGuard() {
+        interrupted = false;
+        struct sigaction action {};
+        action.sa_handler = [](int) { interrupted = true; };
+        action.sa_flags = int(SA_RESETHAND);
+        sigaction(SIGINT, &action, &old_interrupt_);
+        sigaction(SIGTERM, &action, &old_terminate_);
+    }
+    ~InterruptGuard() {
+        sigaction(SIGINT, &old_interrupt_, nullptr);
+        sigaction(SIGTERM, &old_terminate_, nullptr);
+    }
+
+  private:
+    struct sigaction old_interrupt_ {
+    }, old_terminate_{};
+};
+
+int parse_bounces(const std::string& text) {
+    if (text == "unlimited") return k_unlimited_bounces;
+    static const std::regex number("[0-9]{1,4}");
+    if (!std::regex_match(text, number)) {
+        throw Error("--bounces " + text + ": it is a number from 0 (direct light only), or 'unlimited'");
+    }
+    return std::stoi(text);
+}
+
+void apply_size(const std::string& size, Shot& shot) {
+    if (size.empty()) return;
+    static const std::regex form("([0-9]{1,5})x([0-9]{1,5})");
+    std::smatch match;
+    if (!std::regex_match(size, match, form)) throw Error("--size " + size + ": it is written WxH, as 1280x720");
+    shot.width = std::stoi(match[1]);
+    shot.height = std::stoi(match[2]);
+}
+
+std::string add_metadata(const std::string& made, const ReferenceArguments& arguments, const ReferenceResult& result) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::parse(made);
+    json["commit"] = program_commit();
+    json["shot_file"] = arguments.shot;
+    json["frame"] = arguments.frame;
+    json["complete"] = result.complete;
+    if (!arguments.resource.empty()) json["resource"] = arguments.resource;
+    return json.dump();
+}
+
+Image8 to_display(const Image& image) {
+    Image8 out{image.width, image.height, std::vector<uint8_t>(size_t(image.width) * size_t(image.height) * 4, 255)};
+    for (size_t i = 0; i < size_t(image.width) * size_t(image.height); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const float value = image.pixels[i * size_t(image.channels) + size_t(std::min(c, image.channels - 1))];
+            out.rgba[4 * i + size_t(c)] = uint8_t(std::lround(255 * srgb_encode(value)));
+        }
+    }
+    return out;
+}
+
+void write_reference(const ReferenceArguments& arguments, const ReferenceResult& result) {
+    const std::filesystem::path path = arguments.output;
+    if (path.extension() == ".png") {
+        const bool picture = arguments.resource.empty();
+        const Image& image = result.image.layers.at(picture ? "out.radiance" : arguments.resource);
+        write_png(path, to_display(picture ? display_values(image, arguments.exposure) : image));
+        return;
+    }
+    LayeredImage file;
+    if (arguments.resource.empty())
+        file = result.image;
+    else
+        file.layers[arguments.resource] = result.image.layers.at(arguments.resource);
+    file.metadata = add_metadata(result.image.metadata, arguments, result);
+    write_exr(path, file);
+}
+
+/// What is written besides the parts; such a resource has no noise of its own to go by.
+const std::vector<std::string> k_surface_layers{"gbuffer.normal",   "gbuffer.position",  "gbuffer.albedo",
+                                                "gbuffer.material", "gbuffer.roughness", "gbuffer.metallic"};
+
+bool is_surface_layer(const std::string& name) {
+    return std::find(k_surface_layers.begin(), k_surface_layers.end(), name) != k_surface_layers.end();
+}
+
+void check_resource(const std::string& resource) {
+    std::vector<std::string> names{"out.radiance"};
+    for (const ReferencePart& part : k_reference_parts)
+        names.emplace_back(part.name);
+    names.insert(names.end(), k_surface_layers.begin(), k_surface_layers.end());
+    if (resource.empty() || std::find(names.begin(), names.end(), resource) != names.end()) return;
+    throw Error("the reference makes no '" + resource + "'" + did_you_mean(resource, names));
+}
+
+int reference(ReferenceArguments arguments) {
+    check_output_path(arguments.output);
+    check_resource(arguments.resource);
+    arguments.settings.bounces = parse_bounces(arguments.bounces);
+    Shot shot = load_shot(arguments.shot);
+    apply_size(arguments.size, shot);
+
+    ReferenceGoal goal;
+    goal.samples = arguments.samples;
+    goal.noise = arguments.noise;
+    if (goal.samples == 0 && goal.noise == 0) goal.noise = 0.01;
+    if (!arguments.resource.empty() && !is_surface_layer(arguments.resource)) goal.part = arguments.resource;
+
+    const auto start = std::chrono::steady_clock::now();
+    auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+    ReferenceResult result;
+    {
+        InterruptGuard guard;
+        Progress bar("path tracing");
+        auto on_progress = [&](const ReferenceProgress& progress) {
+            // The bar tells the time left from the share: give it the share that says what is known.
+            const double passed = elapsed();
+            if (progress.seconds_left >= 0) bar.update(passed / std::max(1e-9, passed + progress.seconds_left));
+            return !interrupted;
+        };
+        result = reference_image(shot, arguments.settings, arguments.frame, goal, on_progress, !arguments.no_cache);
+    }
+    if (!result.kept_problem.empty()) {
+        fmt::print(stderr, "warning: the samples could not be kept for a later run: {}\n", result.kept_problem);
+    }
+    if (result.complete || result.samples >= 1) write_reference(arguments, result);
+    if (!arguments.quiet || !result.complete) {
+        fmt::print("{}: {} samples a pixel, noise {:.2f} % of {}{}\n", arguments.output, result.samples,
+                   100 * result.noise, goal.part,
+                   result.cached             ? " (from the cache)"
+                   : result.resumed_from > 0 ? fmt::format(" (resumed from {} samples)", result.resumed_from)
+                                             : "");
+    }
+    if (!result.complete) {
+        fmt::print(stderr, "stopped before the goal; {}\n",
+                   arguments.no_cache || !result.kept_problem.empty() ? "nothing was kept for a later run"
+                                                                      : "the same command goes on from here");
+        return interrupted ? 130 : 1;
+    }
+    if (goal.noise > 0 && result.noise > goal.noise) {
+        fmt::print(stderr, "warning: the noise is still above {} after {} samples\n", goal.noise, result.samples);
+    }
+    return 0;
+}
+
+} // namespace
+
+void add_reference_command(CLI::App& app, CommandFunction& chosen) {
+    auto* command = app.add_subcommand("reference", "path-trace a shot: the truth that methods are compared with");
+    auto a = std::make_shared<ReferenceArguments>();
+    command->add_option("shot", a->shot, "a shot (name or .json), or a scene (.gltf, .glb)")->required();
+    command->add_option("-o,--output", a->output, "x.exr (every part as a layer) or x.png")->required();
+    command->add_option("--bounces", a->bounces, "scattering orders after direct light: 0, 1, … or 'unlimited'")
+        ->capture_default_str();
+    auto* samples = command->add_option("--spp", a->samples, "samples a pixel")->check(CLI::Range(2, 1 << 20));
+    command->add_option("--noise", a->noise, "stop at this relative noise (0.01 when neither is given)")
+        ->check(CLI::Range(1e-6, 10.0))
+        ->excludes(samples);
+    command->add_flag("--diffuse-only", a->settings.diffuse_only, "make every material Lambert");
+    command->add_option("--resource", a->resource,
+                        "write this one part (out.indirect_diffuse …); --noise then means its noise");
+    command->add_option("--size", a->size, "WxH instead of the shot's size");
+    command->add_option("--frame", a->frame, "frame of an animated shot")->check(CLI::NonNegativeNumber);
+    command
+        ->add_option("--occlusion-distance", a->settings.occlusion_distance,
+                     "d_max of out.ambient_occlusion_dmax, as a share of the scene's diagonal")
+        ->capture_default_str()
+        ->check(CLI::Range(1e-6, 1e6));
+    command->add_option("--exposure", a->exposure, "stops, for a .png of the whole picture")->capture_default_str();
+    command->add_option("--seed", a->settings.seed, "another seed is an independent image")->capture_default_str();
+    command->add_option("--threads", a->settings.threads, "0 = all")->check(CLI::NonNegativeNumber);
+    command->add_flag("--no-cache", a->no_cache, "neither take from nor add to the cache of earlier runs");
+    command->add_flag("--quiet,-q", a->quiet, "print nothing when all goes well");
+    command->callback([a, &chosen] { chosen = [a] { return reference(*a); }; });
+}
+
+} // namespace bounce

@@ -1,0 +1,17 @@
+#pragma once
+// A scatter of error against time as SVG, both axes logarithmic, with the Pareto front of each shot marked.
+
+#include "app/experiments/chart_point.h"
+
+#include <string>
+#include <vector>
+
+namespace bounce {
+
+/// One plot a shot, side by side below each other. Points carry titles (shown on hover) with what made them.
+std::string svg_scatter(const std::vector<ChartPoint>& points);
+
+/// Text made safe for XML and HTML.
+std::string escape_markup(const std::string& text);
+
+} // namespace bounce

@@ -1,0 +1,85 @@
+#include "app/experiments/sweep.h"
+
+#include "core/error.h"
+#include "core/image.h"
+#include "core/paths.h"
+#include "core/text.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace bounce {
+
+using nlohmann::ordered_json;
+
+std::vector<ParameterValues> Sweep::combinations() const {
+    std::vector<ParameterValues> out = {base};
+    for (const auto& [name, values] : lists) {
+        std::vector<ParameterValues> next;
+        for (const ParameterValues& so_far : out) {
+            for (const std::string& value : values) {
+                next.push_back(so_far);
+                next.back().emplace_back(name, value);
+            }
+        }
+        out = std::move(next);
+    }
+    return out;
+}
+
+/// A value as --set takes it.
+static std::string text_of(const ordered_json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (!value.is_array()) return value.dump();
+    std::string text;
+    for (const ordered_json& part : value)
+        text += (text.empty() ? "" : ",") + part.dump();
+    return text;
+}
+
+Sweep load_sweep(const std::string& name) {
+    std::filesystem::path path = name;
+    if (!std::filesystem::is_regular_file(path)) path = assets_folder() / "sweeps" / (name + ".json");
+    if (!std::filesystem::is_regular_file(path)) {
+        std::vector<std::string> names;
+        std::error_code ignored;
+        for (const auto& entry : std::filesystem::directory_iterator(assets_folder() / "sweeps", ignored))
+            names.push_back(entry.path().stem().string());
+        throw Error("there is no sweep '" + name + "'" + did_you_mean(name, names));
+    }
+    ordered_json json;
+    try {
+        json = ordered_json::parse(read_file(path), nullptr, true, true);
+    } catch (const ordered_json::parse_error& error) {
+        throw Error(path.string() + ": not JSON: " + error.what());
+    }
+    ErrorList errors;
+    Sweep sweep;
+    const std::vector<std::string> keys = {"about", "base", "lists"};
+    if (!json.is_object()) throw Error(path.string() + ": a sweep is an object {\"base\": {…}, \"lists\": {…}}");
+    for (const auto& [key, value] : json.items()) {
+        if (key == "about" && value.is_string())
+            sweep.about = value.get<std::string>();
+        else if (key == "base" && value.is_object()) {
+            for (const auto& [parameter, v] : value.items())
+                sweep.base.emplace_back(parameter, text_of(v));
+        } else if (key == "lists" && value.is_object()) {
+            for (const auto& [parameter, list] : value.items()) {
+                if (!list.is_array() || list.empty()) {
+                    errors.add("lists." + parameter + " must be a list of at least one value");
+                    continue;
+                }
+                std::vector<std::string> values;
+                for (const auto& v : list)
+                    values.push_back(text_of(v));
+                sweep.lists.emplace_back(parameter, values);
+            }
+        } else {
+            errors.add(fmt::format("there is no key '{}' of that shape{}", key, did_you_mean(key, keys)));
+        }
+    }
+    errors.throw_if_any(path.string());
+    return sweep;
+}
+
+} // namespace bounce

@@ -1,0 +1,215 @@
+// The graph: its passes in order, what each costs, what does not run and why.
+#include "app/panels/panel.h"
+#include "app/panels/pass_rows.h"
+#include "app/timings.h"
+#include "app/ui/marks.h"
+#include "app/ui/widget_rects.h"
+#include "core/error.h"
+#include "core/paths.h"
+#include "core/text.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace bounce {
+
+namespace {
+
+std::vector<std::string> graph_names() {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(assets_folder() / "graphs", error)) {
+        if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+void open_later(PanelContext& context, const std::string& name) {
+    Session& session = context.session;
+    UiState& ui = context.ui;
+    ui.window.ask([&session, &ui, name] {
+        try {
+            session.open_graph(name);
+            ui.pinned.clear();
+            ui.redraw();
+            ui.say("graph " + name);
+        } catch (const Error& error) {
+            ui.say(error.what(), true);
+        }
+    });
+}
+
+void draw_choice(PanelContext& context) {
+    const GraphFile& file = context.session.graph().model().file();
+    ImGui::SetNextItemWidth(-ImGui::GetFrameHeight() * 5.2f);
+    if (ImGui::BeginCombo("##graph", context.session.options().graph.c_str())) {
+        for (const std::string& name : graph_names()) {
+            if (ImGui::Selectable(name.c_str(), name == file.name)) open_later(context, name);
+            note_widget("graph.choose." + name);
+        }
+        ImGui::EndCombo();
+    }
+    note_widget("graph.choose");
+    show_tooltip(file.about + "\n" + file.path.string());
+    ImGui::SameLine();
+    if (ImGui::Checkbox("find NaN", &context.session.graph().check_nan)) context.ui.redraw();
+    note_widget("graph.check_nan");
+    show_tooltip("Looks at everything that a pass writes for values that are not finite. Slow.");
+}
+
+void draw_problems(const Graph& graph) {
+    for (const GraphProblem& problem : graph.problems()) {
+        if (problem.where != "graph") continue;
+        show_wrapped(problem.error.text(), k_error_colour);
+        note_widget("graph.problem");
+    }
+}
+
+void switch_pass(Session& session, UiState& ui, const std::string& id, bool on) {
+    if (PassNode* node = session.graph().model().find_node(id)) node->enabled = on;
+    session.graph().touch();
+    ui.redraw();
+}
+
+void draw_switch(PanelContext& context, const std::string& id) {
+    const PassNode* node = context.session.graph().model().find_node(id);
+    bool on = node && node->enabled;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(1, 1));
+    if (ImGui::Checkbox("##enabled", &on)) {
+        Session& session = context.session;
+        UiState& ui = context.ui;
+        switch_pass(session, ui, id, on);
+        context.undo.push({(on ? "switch on " : "switch off ") + id, [&session, &ui, id, on] { switch_pass(session, ui, id, !on); },
+                           [&session, &ui, id, on] { switch_pass(session, ui, id, on); }});
+    }
+    ImGui::PopStyleVar();
+    note_widget("graph.enabled." + id);
+}
+
+/// A bar to scale with the slowest pass; the thin line on it spans the 10th to the 90th percentile.
+void draw_time(const PassTiming& timing, double slowest) {
+    ImVec2 from = ImGui::GetCursorScreenPos();
+    float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
+    auto at = [&](double ms) { return from.x + width * float(slowest > 0 ? std::min(ms / slowest, 1.0) : 0.0); };
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(from, ImVec2(std::max(at(timing.median), from.x + 1), from.y + height), ImGui::GetColorU32(k_bar_colour), 2);
+    if (timing.samples > 1) {
+        float y = from.y + height - 2;
+        list.AddLine(ImVec2(at(timing.low), y), ImVec2(at(timing.high), y), ImGui::GetColorU32(ImGuiCol_Text), 1);
+    }
+    show_text(timing.samples ? fmt::format(" {:.3f}", timing.median) : " -");
+}
+
+std::string time_text(const PassTiming& timing) {
+    if (!timing.samples) return "not timed yet";
+    return fmt::format("GPU {:.3f} ms (median of {} frames), 10 to 90 %: {:.3f} to {:.3f} ms, last {:.3f} ms", timing.median,
+                       timing.samples, timing.low, timing.high, timing.last);
+}
+
+/// Values of this pass's outputs that were not finite in the newest frame.
+uint64_t non_finite_of(const Graph& graph, const PlanPass& pass) {
+    uint64_t count = 0;
+    for (const PlanSlot& slot : pass.slots) {
+        if (!slot.use.writes || slot.resource < 0) continue;
+        auto found = graph.non_finite().find(graph.plan().resources[size_t(slot.resource)].name());
+        if (found != graph.non_finite().end()) count += found->second;
+    }
+    return count;
+}
+
+void draw_declined(PanelContext& context, const PassRow& row) {
+    draw_switch(context, row.id);
+    ImGui::SameLine();
+    show_text(row.id, k_dim_colour);
+    note_widget("graph.pass." + row.id);
+    show_tooltip(row.id + " does not run: " + row.declined);
+    ImGui::Indent(ImGui::GetFontSize() * 1.6f);
+    show_wrapped(row.declined, k_dim_colour);
+    ImGui::Unindent(ImGui::GetFontSize() * 1.6f);
+}
+
+void draw_running(PanelContext& context, const PlanPass& pass, double slowest) {
+    Session& session = context.session;
+    UiState& ui = context.ui;
+    const Graph& graph = session.graph();
+    PassTiming timing = graph.timing(pass.id);
+    std::string output = main_output(graph.plan(), pass);
+    bool stale = graph.pass_is_stale(pass.id), pinned = !output.empty() && ui.pinned == output;
+    uint64_t bad = non_finite_of(graph, pass);
+
+    draw_switch(context, pass.id);
+    ImGui::SameLine();
+    std::string label = pass.id;
+    int steps = pass.repeat_to - pass.repeat_from;
+    if (steps != 1) label += fmt::format(" ×{}", steps);
+    if (stale) label += " (failed)";
+    if (bad) label += " (NaN)";
+    ImVec4 colour = stale || bad ? k_error_colour : pinned ? k_pinned_colour : ImGui::GetStyleColorVec4(ImGuiCol_Text);
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    bool clicked = ImGui::Selectable(label.c_str(), pinned, ImGuiSelectableFlags_SpanAllColumns);
+    ImGui::PopStyleColor();
+    note_widget("graph.pass." + pass.id);
+    if (clicked && !output.empty()) {
+        ui.pinned = pinned ? "" : output;
+        ui.redraw();
+    }
+    if (ImGui::IsItemHovered()) {
+        ui.hovered = output;
+        std::string text = pass_details(graph.model(), graph.plan(), pass) + "\n" + time_text(timing);
+        if (bad) text += fmt::format("\n{} values that it wrote are not finite", bad);
+        if (stale) text += "\nIts newest program is wrong: see the shaders.";
+        if (!output.empty()) text += pinned ? "\nClick to let go of " + output : "\nClick to keep " + output + " in view";
+        show_tooltip(text);
+    }
+    ImGui::TableNextColumn();
+    draw_time(timing, slowest);
+    ImGui::TableNextColumn();
+    show_right(fmt::format("{:.2f}", double(bytes_of_pass(graph.plan(), pass.id)) / (1 << 20)));
+}
+
+void draw_totals(const Session& session) {
+    const Graph& graph = session.graph();
+    ImGui::TableNextRow(ImGuiTableRowFlags_None);
+    ImGui::TableNextColumn();
+    show_text(fmt::format("all {} passes", graph.plan().passes.size()), k_dim_colour);
+    ImGui::TableNextColumn();
+    show_text(fmt::format(" {:.3f}", graph.frame_ms()), k_dim_colour);
+    ImGui::TableNextColumn();
+    show_right(fmt::format("{:.2f}", double(graph.plan().total_bytes()) / (1 << 20)));
+    const GpuScene& scene = session.gpu_scene();
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    show_text("scene", k_dim_colour);
+    show_tooltip("geometry " + format_bytes(double(scene.geometry_bytes())) + ", textures " + format_bytes(double(scene.texture_bytes())));
+    ImGui::TableNextColumn();
+    ImGui::TableNextColumn();
+    show_right(fmt::format("{:.2f}", double(scene.geometry_bytes() + scene.texture_bytes()) / (1 << 20)));
+}
+
+} // namespace
+
+void draw_graph_panel(PanelContext& context) {
+    const Graph& graph = context.session.graph();
+    draw_choice(context);
+    draw_problems(graph);
+    double slowest = 0;
+    for (const PlanPass& pass : graph.plan().passes) slowest = std::max(slowest, graph.timing(pass.id).median);
+    if (!ImGui::BeginTable("passes", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
+    ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch, 5);
+    ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthStretch, 4);
+    ImGui::TableSetupColumn("MiB", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("0000.00").x);
+    ImGui::TableHeadersRow();
+    for (const PassRow& row : pass_rows(graph.model(), graph.plan())) {
+        ImGui::PushID(row.id.c_str());
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        if (row.plan < 0) draw_declined(context, row);
+        else draw_running(context, graph.plan().passes[size_t(row.plan)], slowest);
+        ImGui::PopID();
+    }
+    draw_totals(context.session);
+    ImGui::EndTable();
+}
+
+} // namespace bounce

@@ -1,0 +1,184 @@
+// Every parameter of the graph, by pass.
+#include "app/panels/panel.h"
+#include "app/panels/parameter_edit.h"
+#include "app/panels/parameter_widget.h"
+#include "app/ui/marks.h"
+#include "app/ui/widget_rects.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fmt/format.h>
+
+namespace bounce {
+
+namespace {
+
+ImVec4 origin_colour(ParameterOrigin origin) {
+    switch (origin) {
+    case ParameterOrigin::default_value: return {0.45f, 0.46f, 0.50f, 1};
+    case ParameterOrigin::graph: return {0.38f, 0.62f, 0.95f, 1};
+    case ParameterOrigin::command_line: return {0.55f, 0.82f, 0.45f, 1};
+    case ParameterOrigin::panel: return {0.98f, 0.70f, 0.28f, 1};
+    }
+    return {};
+}
+
+std::string help_text(const std::string& name, const std::string& type, const Parameter& p) {
+    const ParameterInfo& info = p.info;
+    std::string text = name + (info.help.empty() ? "" : ": " + info.help);
+    std::string range = range_text(info);
+    if (!range.empty()) text += "\nrange " + range + (info.unit.empty() ? "" : " " + info.unit);
+    text += "\ndefault " + to_text(info, info.default_value);
+    text += fmt::format("\nnow {}, set by {}", to_text(info, p.value),
+                        p.origin == ParameterOrigin::default_value ? "nobody (the default)" : to_string(p.origin));
+    if (info.is_static) text += "\ncompiled in: a change compiles the shader again, when you let go";
+    text += "\ndeclared in " + (!info.where.empty() ? info.where : name.starts_with("graph.") ? "the graph file" : "pass type " + type);
+    return text;
+}
+
+/// A coloured square that tells who set the value, and opens the menu.
+void draw_mark(const Parameter& parameter) {
+    float side = ImGui::GetFontSize() * 0.55f, height = ImGui::GetFrameHeight();
+    ImVec2 from = ImGui::GetCursorScreenPos();
+    if (ImGui::InvisibleButton("mark", ImVec2(side + 4, height))) ImGui::OpenPopup("menu");
+    float y = from.y + (height - side) / 2;
+    ImVec4 colour = origin_colour(parameter.origin);
+    ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(from.x, y), ImVec2(from.x + side, y + side), ImGui::GetColorU32(colour), 2);
+    show_tooltip(fmt::format("set by: {}\nClick to reset or to copy.", to_string(parameter.origin)));
+}
+
+void draw_menu(PanelContext& context, const std::string& name, const Parameter& parameter) {
+    if (!ImGui::BeginPopup("menu")) return;
+    show_text(name, k_dim_colour);
+    if (ImGui::MenuItem("Reset")) reset_parameters(context, {name});
+    note_widget(name + ".reset");
+    if (ImGui::MenuItem("Copy as --set")) {
+        std::string option = set_options({{name, to_text(parameter.info, parameter.value)}});
+        ImGui::SetClipboardText(option.c_str());
+        context.ui.say("copied: " + option);
+    }
+    note_widget(name + ".copy");
+    ImGui::EndPopup();
+}
+
+/// The widget, and the edit that it makes: one step of undo from press to release.
+void draw_value(PanelContext& context, const std::string& id, const Parameter& parameter) {
+    const ParameterInfo info = parameter.info; // a change may make the shader, and so the parameters, be read again
+    const ParameterText before = text_of(id, parameter);
+    ParameterEdit& edit = context.ui.edit;
+    bool held = info.is_static && edit.name == before.name; // what is compiled in waits for the end of the drag
+    ParameterValue value = held && edit.value.index() == parameter.value.index() ? edit.value : parameter.value;
+    bool at_once = false;
+    bool changed = draw_parameter_widget(info, value, at_once);
+    note_widget(before.name);
+    bool begun = ImGui::IsItemActivated(), ended = ImGui::IsItemDeactivated(), edited = ImGui::IsItemDeactivatedAfterEdit();
+    if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) ImGui::OpenPopup("menu");
+
+    if (begun || (changed && edit.name != before.name)) edit = {before.name, before.text, before.origin, value};
+    ParameterText after{before.name, to_text(info, value), ParameterOrigin::panel};
+    if (changed) {
+        edit.value = value;
+        if (at_once || !info.is_static) apply(context.session, context.ui, {after});
+    }
+    bool final_change = (changed && at_once) || (edited && edit.name == before.name);
+    if (final_change && after.text != edit.before) {
+        if (info.is_static && !at_once) apply(context.session, context.ui, {after});
+        push_undo(context, before.name, {{edit.name, edit.before, edit.origin}}, {after});
+    }
+    if ((final_change || ended) && edit.name == before.name) edit = {};
+}
+
+void draw_row(PanelContext& context, const NamedParameter& named, const std::string& type) {
+    std::string name = named.name();
+    const Parameter parameter = *named.parameter; // outlives a reload by one of the widgets
+    ImGui::PushID(name.c_str());
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    draw_mark(parameter);
+    note_widget(name + ".mark");
+    ImGui::SameLine(0, 2);
+    ImGui::AlignTextToFramePadding();
+    show_text(parameter.info.name);
+    if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) ImGui::OpenPopup("menu");
+    show_tooltip(help_text(name, type, parameter));
+    if (!parameter.info.unit.empty()) {
+        ImGui::SameLine(0, 5);
+        show_text(parameter.info.unit, k_dim_colour);
+    }
+    ImGui::TableNextColumn();
+    draw_value(context, named.id, parameter);
+    if (ImGui::GetActiveID() == 0) show_tooltip(help_text(name, type, parameter));
+    draw_menu(context, name, parameter);
+    ImGui::PopID();
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return std::search(text.begin(), text.end(), part.begin(), part.end(),
+                       [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); }) != text.end();
+}
+
+void draw_tools(PanelContext& context, const std::vector<NamedParameter>& all) {
+    UiState& ui = context.ui;
+    char filter[96] = {};
+    std::strncpy(filter, ui.parameter_filter.c_str(), sizeof filter - 1);
+    ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 6.5f);
+    if (ImGui::InputTextWithHint("##filter", "filter by name or help", filter, sizeof filter)) ui.parameter_filter = filter;
+    note_widget("parameters.filter");
+    ImGui::SameLine();
+    ImGui::Checkbox("changed", &ui.only_changed_parameters);
+    note_widget("parameters.changed");
+    show_tooltip("Only parameters that are not at their default.");
+
+    std::vector<std::string> set;
+    for (const NamedParameter& named : all) {
+        if (named.parameter->origin >= ParameterOrigin::command_line) set.push_back(named.name());
+    }
+    ImGui::BeginDisabled(set.empty());
+    if (ImGui::SmallButton("reset all")) reset_parameters(context, set);
+    note_widget("parameters.reset_all");
+    show_tooltip(fmt::format("Puts {} parameters back to the graph's values.", set.size()));
+    ImGui::SameLine();
+    if (ImGui::SmallButton("copy all as --set")) {
+        std::string text = set_options(context.session.changed_parameters(ParameterOrigin::command_line));
+        ImGui::SetClipboardText(text.c_str());
+        ui.say("copied: " + text);
+    }
+    note_widget("parameters.copy_all");
+    ImGui::EndDisabled();
+}
+
+} // namespace
+
+void draw_parameters_panel(PanelContext& context) {
+    const GraphModel& model = context.session.graph().model();
+    std::vector<NamedParameter> all = all_parameters(model);
+    draw_tools(context, all);
+    const UiState& ui = context.ui;
+    std::erase_if(all, [&](const NamedParameter& named) {
+        const ParameterInfo& info = named.parameter->info;
+        bool found = contains(named.name(), ui.parameter_filter) || contains(info.help, ui.parameter_filter);
+        bool changed = named.parameter->value != info.default_value;
+        return !found || (ui.only_changed_parameters && !changed && ui.edit.name != named.name());
+    });
+    if (all.empty()) show_text("no parameter fits", k_dim_colour);
+    ImGui::BeginChild("values"); // the tools above stay while these scroll
+    for (size_t i = 0; i < all.size();) {
+        const std::string id = all[i].id;
+        size_t end = i;
+        while (end < all.size() && all[end].id == id) ++end;
+        const PassNode* node = model.find_node(id);
+        std::string type = node ? node->entry.type : "";
+        bool open = ImGui::CollapsingHeader(id.c_str(), ImGuiTreeNodeFlags_DefaultOpen);
+        note_widget("parameters.pass." + id);
+        if (open && ImGui::BeginTable(id.c_str(), 2, ImGuiTableFlags_SizingStretchProp)) {
+            ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 5);
+            ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 6);
+            for (size_t p = i; p < end; ++p) draw_row(context, all[p], type);
+            ImGui::EndTable();
+        }
+        i = end;
+    }
+    ImGui::EndChild();
+}
+
+} // namespace bounce

@@ -1,0 +1,63 @@
+#include "app/ui/keys.h"
+
+#include <algorithm>
+
+namespace bounce {
+
+const std::vector<KeyBinding>& key_bindings() {
+    using enum KeyCommand;
+    static const std::vector<KeyBinding> table = {
+        {"Camera", {"Right mouse"}, "look around; with W A S D fly, with E and Q rise and sink"},
+        {"Camera", {"Right mouse + Shift"}, "fly four times as fast"},
+        {"Camera", {"Right mouse + wheel"}, "fly faster or slower from now on"},
+        {"Camera", {"Left mouse"}, "turn about the surface under the pointer"},
+        {"Camera", {"Middle mouse"}, "move sideways with the surface under the pointer"},
+        {"Camera", {"Wheel"}, "move toward the surface under the pointer, or away"},
+        {"Camera", {"F"}, "see the whole scene", frame_scene},
+        {"Camera", {"Home"}, "back to the shot's camera", shot_camera},
+        {"Camera", {"B"}, "bookmark this camera", add_bookmark},
+        {"Camera", {"1", "2", "3", "4", "5", "6", "7", "8", "9"}, "go to a bookmark", bookmark},
+        {"Picture", {"Ctrl + wheel"}, "magnify the picture"},
+        {"Picture", {"Ctrl+0"}, "the picture in its own size", reset_zoom},
+        {"Picture", {"I"}, "hold the pixel inspector where it is, or let it follow", lock_cursor},
+        {"Picture", {"Escape"}, "show the final picture again (unpin)", unpin},
+        {"Time", {"Space"}, "play or pause", play},
+        {"Time", {".", "Right"}, "one frame on", step},
+        {"Time", {"0"}, "back to the first frame", first_frame},
+        {"Time", {"C"}, "render continuously, also when nothing changes", render_always},
+        {"Files", {"F12", "Ctrl+S"}, "save the picture as PNG", capture_png},
+        {"Files", {"Shift+F12", "Ctrl+Shift+S"}, "save its linear parts as EXR", capture_exr},
+        {"Files", {"Ctrl+R"}, "record numbered frames, or stop", record},
+        {"Files", {"Ctrl+E"}, "save what is seen as a shot", save_shot},
+        {"Files", {"F5"}, "read the shot again from its file", reload_shot},
+        {"Files", {"Drop a file"}, "open a .gltf, a .glb, a shot or a graph"},
+        {"Window", {"Ctrl+Z"}, "undo", undo},
+        {"Window", {"Ctrl+Shift+Z", "Ctrl+Y"}, "redo", redo},
+        {"Window", {"?", "F1"}, "show or hide these keys", show_keys},
+        {"Window", {"L"}, "show or hide the log", show_log},
+        {"Window", {"Tab"}, "hide or show the right column", show_right},
+        {"Window", {"Shift+Tab"}, "hide or show the left column", show_left},
+        {"Window", {"F11"}, "whole screen", fullscreen},
+        {"Window", {"Ctrl++", "Ctrl+=", "Ctrl+Shift+="}, "larger text", larger_interface},
+        {"Window", {"Ctrl+-"}, "smaller text", smaller_interface},
+        {"Window", {"Ctrl+Q"}, "quit", quit},
+    };
+    return table;
+}
+
+KeyCommand command_of(const std::string& chord) {
+    for (const KeyBinding& binding : key_bindings()) {
+        if (binding.command == KeyCommand::none) continue;
+        if (std::find(binding.chords.begin(), binding.chords.end(), chord) != binding.chords.end()) return binding.command;
+    }
+    return KeyCommand::none;
+}
+
+std::string chord_of(KeyCommand command) {
+    for (const KeyBinding& binding : key_bindings()) {
+        if (binding.command == command) return binding.chords.front();
+    }
+    return {};
+}
+
+} // namespace bounce

@@ -1,0 +1,148 @@
+#include "app/ui/ui_state_file.h"
+
+#include "core/error.h"
+#include "core/image.h"
+#include "core/log.h"
+#include "core/paths.h"
+#include "scene/shot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace bounce {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr int k_version = 1;
+
+std::filesystem::path state_path() {
+    return state_folder() / "window.json";
+}
+
+/// Sets `to` when the key is there; a value of another type or out of range throws.
+template <typename T> void get(const json& from, const char* key, T& to) {
+    if (from.contains(key)) to = from.at(key).get<T>();
+}
+
+void get_number(const json& from, const char* key, float& to, float least, float greatest) {
+    float value = to;
+    get(from, key, value);
+    if (!std::isfinite(value)) throw std::runtime_error(std::string(key) + " is not a number");
+    to = std::clamp(value, least, greatest);
+}
+
+void get_size(const json& from, const char* key, glm::ivec2& to, int least) {
+    if (!from.contains(key)) return;
+    to.x = std::clamp(from.at(key).at(0).get<int>(), least, 16384);
+    to.y = std::clamp(from.at(key).at(1).get<int>(), least, 16384);
+}
+
+json vector_json(const glm::vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+glm::vec3 vector_from(const json& value) {
+    glm::vec3 v(value.at(0).get<float>(), value.at(1).get<float>(), value.at(2).get<float>());
+    if (!std::isfinite(v.x + v.y + v.z)) throw std::runtime_error("a camera is not finite");
+    return v;
+}
+
+Bookmark bookmark_from(const json& value) {
+    Bookmark mark;
+    get(value, "shot", mark.shot);
+    get(value, "name", mark.name);
+    mark.camera.position = vector_from(value.at("position"));
+    mark.camera.target = vector_from(value.at("target"));
+    mark.camera.up = vector_from(value.at("up"));
+    get_number(value, "vfov", mark.camera.vfov, 0.001f, 3.1f);
+    if (mark.camera.position == mark.camera.target) throw std::runtime_error("a camera looks nowhere");
+    return mark;
+}
+
+WindowState state_from(const json& root) {
+    if (root.at("version") != k_version) throw std::runtime_error("it is of another version");
+    WindowState state;
+    get_number(root, "left", state.layout.left, 150, 2000);
+    get_number(root, "right", state.layout.right, 150, 2000);
+    get_number(root, "right_split", state.layout.right_split, 0.1f, 0.9f);
+    get_number(root, "log_height", state.layout.log_height, 60, 2000);
+    get(root, "show_left", state.layout.show_left);
+    get(root, "show_right", state.layout.show_right);
+    get(root, "fit", state.sizing.fit);
+    get_number(root, "scale", state.sizing.scale, 0.125f, 2);
+    get_size(root, "fixed", state.sizing.fixed, 0);
+    get_size(root, "window", state.size, 320);
+    get(root, "maximized", state.maximized);
+    get_number(root, "interface_scale", state.interface_scale, 0.5f, 3);
+    get(root, "left_tab", state.left_tab);
+    get(root, "upper_tab", state.upper_tab);
+    get(root, "lower_tab", state.lower_tab);
+    get(root, "shot", state.shot);
+    get(root, "graph", state.graph);
+    get_number(root, "fly_speed", state.fly_speed, 0.001f, 1000);
+    get(root, "capture_folder", state.capture.folder);
+    get(root, "capture_frames", state.capture.frames);
+    if (root.contains("bookmarks")) {
+        for (const json& value : root.at("bookmarks")) state.bookmarks.push_back(bookmark_from(value));
+    }
+    return state;
+}
+
+} // namespace
+
+WindowState load_window_state() {
+    try {
+        std::filesystem::path path = state_path();
+        std::error_code ignored;
+        if (!std::filesystem::exists(path, ignored)) return {};
+        return state_from(json::parse(read_file(path)));
+    } catch (const std::exception& error) {
+        spdlog::warn("the window's state is ignored: {}", error.what());
+        return {};
+    }
+}
+
+void save_window_state(const WindowState& state) {
+    json root;
+    root["version"] = k_version;
+    root["left"] = state.layout.left;
+    root["right"] = state.layout.right;
+    root["right_split"] = state.layout.right_split;
+    root["log_height"] = state.layout.log_height;
+    root["show_left"] = state.layout.show_left;
+    root["show_right"] = state.layout.show_right;
+    root["fit"] = state.sizing.fit;
+    root["scale"] = state.sizing.scale;
+    root["fixed"] = {state.sizing.fixed.x, state.sizing.fixed.y};
+    root["window"] = {state.size.x, state.size.y};
+    root["maximized"] = state.maximized;
+    root["interface_scale"] = state.interface_scale;
+    root["left_tab"] = state.left_tab;
+    root["upper_tab"] = state.upper_tab;
+    root["lower_tab"] = state.lower_tab;
+    root["shot"] = state.shot;
+    root["graph"] = state.graph;
+    root["fly_speed"] = state.fly_speed;
+    root["capture_folder"] = state.capture.folder;
+    root["capture_frames"] = state.capture.frames;
+    root["bookmarks"] = json::array();
+    for (const Bookmark& mark : state.bookmarks) {
+        root["bookmarks"].push_back({{"shot", mark.shot},
+                                     {"name", mark.name},
+                                     {"position", vector_json(mark.camera.position)},
+                                     {"target", vector_json(mark.camera.target)},
+                                     {"up", vector_json(mark.camera.up)},
+                                     {"vfov", mark.camera.vfov}});
+    }
+    try {
+        // Names of files may be no UTF-8: what cannot be written as such is replaced rather than lost with all the rest.
+        write_file_atomically(state_path(), root.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+    } catch (const std::exception& error) {
+        spdlog::warn("the window's state is not kept: {}", error.what());
+    }
+}
+
+} // namespace bounce

@@ -1,0 +1,74 @@
+#include "app/ui/widget_rects.h"
+
+#include "core/log.h"
+
+#include <fstream>
+#include <imgui.h>
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace bounce {
+
+namespace {
+std::filesystem::path dump_file;
+std::map<std::string, ImVec4> widgets;
+uint64_t drawn = 0;
+} // namespace
+
+void note_rectangle(const std::string& name, float x0, float y0, float x1, float y1) {
+    if (!dump_file.empty()) widgets[name] = ImVec4(x0, y0, x1, y1);
+}
+
+void note_widget(const std::string& name) {
+    if (dump_file.empty()) return;
+    ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+    // What has scrolled out of its panel cannot be clicked.
+    if (!ImGui::IsRectVisible(min, max)) return;
+    note_rectangle(name, min.x, min.y, max.x, max.y);
+}
+
+void start_widget_dump(const std::filesystem::path& file) {
+    dump_file = file;
+}
+
+void begin_widget_frame() {
+    widgets.clear();
+}
+
+void end_widget_frame(const PanelContext& context) {
+    if (dump_file.empty()) return;
+    const Session& session = context.session;
+    nlohmann::json json;
+    json["drawn"] = ++drawn;
+    json["rendered"] = session.graph().frames();
+    json["frame"] = session.frame();
+    json["shot"] = session.options().shot;
+    json["graph"] = session.options().graph;
+    json["size"] = {session.size().x, session.size().y};
+    json["camera"] = nlohmann::json::parse(camera_json(session.camera()));
+    json["cursor"] = {context.ui.cursor_pixel.x, context.ui.cursor_pixel.y};
+    json["notice"] = context.ui.notice;
+    json["notice_is_error"] = context.ui.notice_is_error;
+    json["last_capture"] = context.ui.window.capture.last;
+    json["undo"] = context.undo.next_undo();
+    json["problems"] = nlohmann::json::array();
+    for (const GraphProblem& problem : session.graph().problems()) {
+        json["problems"].push_back(problem.where + ": " + problem.error.text());
+    }
+    json["parameters"] = nlohmann::json::object();
+    for (const auto& [name, text] : session.changed_parameters(ParameterOrigin::command_line)) {
+        json["parameters"][name] = text;
+    }
+    json["widgets"] = nlohmann::json::object();
+    for (const auto& [name, r] : widgets) json["widgets"][name] = {r.x, r.y, r.z, r.w};
+
+    // Aside and renamed, as everywhere, but not forced to the disk: this happens many times a second.
+    std::filesystem::path aside = dump_file;
+    aside += ".tmp";
+    std::ofstream(aside) << json.dump(1) << '\n';
+    std::error_code error;
+    std::filesystem::rename(aside, dump_file, error);
+    if (error) spdlog::warn("cannot write '{}': {}", dump_file.string(), error.message());
+}
+
+} // namespace bounce

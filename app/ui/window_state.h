@@ -1,0 +1,79 @@
+#pragma once
+// What the window keeps beside the session: its layout, how large pictures are rendered, bookmarks, captures. Most of it
+// lives on between runs (ui_state_file.h).
+
+#include "scene/scene.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bounce {
+
+/// Widths and heights in interface units (pixels at a content scale of 1).
+struct LayoutState {
+    float left = 290, right = 350;
+    float right_split = 0.47f; ///< share of the right column's height that its upper half has
+    float log_height = 130;
+    bool show_left = true, show_right = true;
+};
+
+/// How large the picture is rendered.
+struct PictureSizing {
+    bool fit = true;   ///< the viewport's size; else `fixed`, or the shot's
+    float scale = 1;   ///< share of it: slow machines render fewer pixels
+    glm::ivec2 fixed{0}; ///< 0: the shot's own size
+};
+
+struct Bookmark {
+    std::string shot, name;
+    Camera camera;
+};
+
+/// What a person may edit of a scene, as it was when the shot was opened.
+struct SceneBaseline {
+    std::vector<Light> lights;
+    std::vector<Node> light_nodes; ///< the node of each light
+    std::vector<Material> materials;
+    glm::vec3 environment{0};
+    bool diffuse_only = false, normal_maps = true;
+};
+
+struct CaptureState {
+    std::string folder = ".";
+    int frames = 60;       ///< wanted of a numbered sequence; 0: until stopped
+    bool recording = false;
+    int written = 0;
+    std::string pattern;   ///< of the sequence: "…_%04d.png"
+    std::string last;      ///< what was written last
+
+    std::string saved_shot;  ///< the shot file that was saved last,
+    std::string saved_state; ///< and what it holds: another state makes it stale
+};
+
+struct WindowState {
+    LayoutState layout;
+    PictureSizing sizing;
+    glm::ivec2 size{1280, 720}; ///< of the window, in screen coordinates
+    bool maximized = false;
+    float interface_scale = 1; ///< a person's factor on top of the display's
+    std::string left_tab = "Scene", upper_tab = "Graph", lower_tab = "Parameters";
+    std::string shot, graph; ///< of the last run
+    std::vector<Bookmark> bookmarks;
+    float fly_speed = 1; ///< 1: the scene's diagonal in ten seconds
+    CaptureState capture;
+
+    // Not kept between runs.
+    SceneBaseline opened;
+    std::string select_tab;     ///< tab to bring to the front at the next frame
+    float image_zoom = 1;       ///< of the viewport's picture, by Ctrl + wheel
+    glm::vec2 image_centre{0.5f}; ///< part of the picture in the viewport's middle
+    std::vector<std::function<void()>> later;
+
+    /// Runs between two frames; an Error it throws is shown and ends nothing. For what replaces the scene or graph that
+    /// panels are drawing.
+    void ask(std::function<void()> action) { later.push_back(std::move(action)); }
+};
+
+} // namespace bounce

@@ -1,0 +1,193 @@
+#include "core/comparison.h"
+
+#include "core/error.h"
+#include "core/text.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace bounce {
+
+Image part_of(const LayeredImage& image, const std::string& part, const std::string& what) {
+    Image sum;
+    for (const std::string& name : part.empty() ? std::vector<std::string>{""} : split(part, '+')) {
+        auto layer = image.layers.find(name);
+        if (layer == image.layers.end()) continue;
+        if (sum.empty()) {
+            sum = layer->second;
+            continue;
+        }
+        check_same_size(sum, what + ", " + part, layer->second, what + ", " + name);
+        for (size_t i = 0; i < sum.pixels.size(); ++i)
+            sum.pixels[i] += layer->second.pixels[i];
+    }
+    if (sum.empty()) {
+        std::vector<std::string> names;
+        for (const auto& [name, layer] : image.layers)
+            names.push_back(name);
+        throw Error(what + " has no part '" + part + "'" + did_you_mean(part, names));
+    }
+    return sum;
+}
+
+static std::vector<std::string> common_parts(const LayeredImage& test, const LayeredImage& reference) {
+    std::vector<std::string> parts;
+    for (const auto& [name, layer] : reference.layers) {
+        if (name.rfind("out.", 0) == 0 && name != "out.display" && test.layers.count(name)) parts.push_back(name);
+    }
+    if (parts.empty() && test.layers.count("") && reference.layers.count("")) parts.push_back("");
+    if (parts.empty() && test.layers.size() == 1 && reference.layers.count(test.layers.begin()->first)) {
+        parts.push_back(test.layers.begin()->first);
+    }
+    if (!parts.empty()) return parts;
+    auto names = [](const LayeredImage& image) {
+        std::vector<std::string> all;
+        for (const auto& [name, layer] : image.layers)
+            all.push_back(name.empty() ? "(unnamed)" : name);
+        return join(all, ", ");
+    };
+    throw Error("the two images have no part in common: one has " + names(test) + "; the other has " +
+                names(reference));
+}
+
+static const Image* find_layer(const LayeredImage& first, const LayeredImage& second, const std::string& name) {
+    for (const LayeredImage* image : {&first, &second}) {
+        auto layer = image->layers.find(name);
+        if (layer != image->layers.end()) return &layer->second;
+    }
+    return nullptr;
+}
+
+static nlohmann::json metadata_of(const LayeredImage& image) {
+    return nlohmann::json::parse(image.metadata, nullptr, false);
+}
+
+/// The camera from either file's metadata.
+static std::optional<glm::vec3> camera_position(const LayeredImage& first, const LayeredImage& second) {
+    for (const LayeredImage* image : {&first, &second}) {
+        const nlohmann::json json = metadata_of(*image);
+        for (const char* pointer : {"/camera_position", "/camera/position"}) {
+            const nlohmann::json::json_pointer at(pointer);
+            if (!json.is_object() || !json.contains(at) || !json[at].is_array() || json[at].size() != 3) continue;
+            const auto& p = json[at];
+            if (p[0].is_number() && p[1].is_number() && p[2].is_number())
+                return glm::vec3(float(p[0]), float(p[1]), float(p[2]));
+        }
+    }
+    return std::nullopt;
+}
+
+/// The RMS standard error that a file tells of a part (sums: of independent parts).
+static double told_noise(const LayeredImage& image, const std::string& part, bool off_edges) {
+    const nlohmann::json json = metadata_of(image);
+    double variance = 0;
+    for (const std::string& name : split(part, '+')) {
+        if (!json.is_object() || !json.contains("noise") || !json["noise"].contains(name)) continue;
+        const auto& noise = json["noise"][name];
+        const char* key = off_edges ? "rms_off_edges" : "rms";
+        if (noise.is_object() && noise.contains(key) && noise[key].is_number()) {
+            variance += double(noise[key]) * double(noise[key]);
+        }
+    }
+    return std::sqrt(variance);
+}
+
+static Image three_channels(const Image& image) {
+    if (image.channels == 3) return image;
+    Image out(image.width, image.height, 3);
+    for (size_t i = 0; i < size_t(image.width) * size_t(image.height); ++i) {
+        for (size_t c = 0; c < 3; ++c) {
+            out.pixels[i * 3 + c] = image.pixels[i * size_t(image.channels) + (image.channels > 3 ? c : 0)];
+        }
+    }
+    return out;
+}
+
+static bool is_radiance(const std::string& part) {
+    return part.find("ambient_occlusion") == std::string::npos && part.find("display") == std::string::npos;
+}
+
+Comparison compare_layers(const LayeredImage& test, const LayeredImage& reference, const ComparisonOptions& options) {
+    const std::vector<std::string> parts = options.parts.empty() ? common_parts(test, reference) : options.parts;
+    Comparison comparison;
+    {
+        const Image first = part_of(reference, parts.front(), "the reference");
+        comparison.mask = Mask(first.width, first.height);
+    }
+    const Image* normal = find_layer(reference, test, "gbuffer.normal");
+    const Image* position = find_layer(reference, test, "gbuffer.position");
+    const auto camera = camera_position(reference, test);
+    if (options.mask_edges && normal && position && camera && normal->width == comparison.mask.width &&
+        normal->height == comparison.mask.height) {
+        comparison.mask = edge_mask(*normal, *position, *camera);
+        comparison.edges_masked = comparison.mask.count() > 0;
+        if (!comparison.edges_masked) comparison.mask = Mask(normal->width, normal->height);
+    }
+    for (const std::string& part : parts) {
+        const std::string shown = part.empty() ? "the image" : part;
+        const Image a = part_of(test, part, "the image"), b = part_of(reference, part, "the reference");
+        check_same_size(a, shown + " of the image", b, shown + " of the reference");
+        check_finite(a, shown + " of the image");
+        check_finite(b, shown + " of the reference");
+        PartComparison result;
+        result.part = part;
+        result.figures = error_figures(a, b, comparison.mask, told_noise(reference, part, comparison.edges_masked));
+        if (result.figures.reference_mean > 0) {
+            result.own_noise = told_noise(test, part, comparison.edges_masked) / result.figures.reference_mean;
+        }
+        if (options.visual) {
+            Image shown_a = three_channels(a), shown_b = three_channels(b);
+            if (!options.display_values && is_radiance(part)) {
+                result.exposure = options.exposure.value_or(automatic_exposure(shown_b, comparison.mask));
+                shown_a = display_values(shown_a, result.exposure);
+                shown_b = display_values(shown_b, result.exposure);
+            }
+            result.ssim = ssim(shown_a, shown_b, comparison.mask);
+            result.flip = flip_mean(flip(shown_a, shown_b, options.ppd), comparison.mask);
+        }
+        comparison.parts.push_back(std::move(result));
+    }
+    return comparison;
+}
+
+std::vector<SurfaceComparison> compare_surfaces(const LayeredImage& test, const LayeredImage& reference,
+                                                const std::string& part, const Mask& mask) {
+    static const char* const k_axes[6] = {"+x", "-x", "+y", "-y", "+z", "-z"};
+    const Image* normal = find_layer(reference, test, "gbuffer.normal");
+    const Image* material = find_layer(reference, test, "gbuffer.material");
+    std::vector<SurfaceComparison> surfaces;
+    if (!normal || !material) return surfaces;
+    const Image ids = surface_ids(*material, *normal);
+    const Image a = part_of(test, part, "the image"), b = part_of(reference, part, "the reference");
+    for (const auto& [id, count] : component_counts(ids)) {
+        const Mask own = mask & component_mask(ids, id);
+        if (double(own.count()) < 0.005 * double(mask.count()) || own.count() == 0) continue;
+        surfaces.push_back({id / 6, k_axes[id % 6], part, error_figures(a, b, own)});
+    }
+    std::stable_sort(surfaces.begin(), surfaces.end(),
+                     [](const auto& x, const auto& y) { return x.figures.pixels > y.figures.pixels; });
+    return surfaces;
+}
+
+LayeredImage read_picture(const std::filesystem::path& path, bool& display) {
+    display = false;
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) { return char(std::tolower(c)); });
+    LayeredImage picture;
+    if (extension == ".exr") return read_exr(path);
+    if (extension == ".hdr") {
+        picture.layers[""] = read_hdr(path);
+        return picture;
+    }
+    const Image8 encoded = read_image8(path);
+    Image image(encoded.width, encoded.height, 3);
+    for (size_t i = 0; i < size_t(image.width) * size_t(image.height); ++i) {
+        for (size_t c = 0; c < 3; ++c)
+            image.pixels[i * 3 + c] = srgb_decode(float(encoded.rgba[i * 4 + c]) / 255);
+    }
+    picture.layers[""] = std::move(image);
+    display = true;
+    return picture;
+}
+
+} // namespace bounce

@@ -1,0 +1,62 @@
+#pragma once
+// Two files of named parts, compared part by part: what `bounce compare`, charts and the Compare panel show.
+
+#include "core/flip.h"
+#include "core/metrics.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bounce {
+
+struct ComparisonOptions {
+    /// Parts by name; "a+b" compares the sums of layers (of which each file must hold at least one). Empty: every out.*
+    /// layer that both files have, and the plain picture "" when there are no others.
+    std::vector<std::string> parts;
+    bool mask_edges =
+        true; ///< by gbuffer.normal and gbuffer.position of the reference, or else of the image, where one has them
+    std::optional<float> exposure; ///< stops, for SSIM and FLIP of radiance; else automatic from the reference
+    float ppd = k_flip_pixels_per_degree;
+    bool display_values = false; ///< the pictures are linear display values already (8-bit files): no tone curve
+    bool visual = true;          ///< compute SSIM and FLIP, the slow ones
+};
+
+struct PartComparison {
+    std::string part;
+    ErrorFigures figures;
+    double ssim = 0, flip = 0;
+    float exposure = 0;
+    /// As figures.reference_noise, but of the compared image, when it says so of itself.
+    double own_noise = 0;
+};
+
+struct SurfaceComparison {
+    int material = -1;
+    std::string axis; ///< "+x" … "-z", the dominant axis of the normal
+    std::string part;
+    ErrorFigures figures;
+};
+
+struct Comparison {
+    Mask mask;
+    bool edges_masked = false;
+    std::vector<PartComparison> parts;
+};
+
+/// `test` against `reference`. Throws Error when nothing can be paired, sizes differ or a value is not finite.
+Comparison compare_layers(const LayeredImage& test, const LayeredImage& reference, const ComparisonOptions& options);
+
+/// "Per surface": each glTF material and dominant normal axis of at least 0.5 % of the mask's pixels, the largest
+/// first. Needs gbuffer.material and gbuffer.normal in one of the files: else empty.
+std::vector<SurfaceComparison> compare_surfaces(const LayeredImage& test, const LayeredImage& reference,
+                                                const std::string& part, const Mask& mask);
+
+/// The layer, or sum of layers, that `part` names. Throws Error naming `what` when there is none.
+Image part_of(const LayeredImage& image, const std::string& part, const std::string& what);
+
+/// Reads a picture to compare: .exr as it is; any 8-bit format as the linear values of its sRGB (layer ""); .hdr.
+/// `display` tells whether the values are display values.
+LayeredImage read_picture(const std::filesystem::path& path, bool& display);
+
+} // namespace bounce

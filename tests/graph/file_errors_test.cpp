@@ -1,0 +1,132 @@
+// What is wrong with a graph file is told at once, all of it, with what would be right.
+#include "graph/graph_test.h"
+
+#include "graph/plan.h"
+
+using namespace bounce;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class GraphFileErrors : public PlanTest {
+  protected:
+    std::string errors(const std::string& members) const {
+        return error_of([&] { load_graph_file(graph_file(members)); });
+    }
+};
+
+TEST_F(GraphFileErrors, AllAreReportedTogether) {
+    std::string text = errors(R"("colour": 3,
+        "parameters": {"scale": {"range": [0, 1]}},
+        "resources": {"blur": {}, "a.b": {"format": "rgba16g", "kind": "texture_4d"}},
+        "passes": [{"type": "compoot"}, {"type": "compute"}, {"type": "compute", "id": "Big", "shader": "x.comp",
+                    "repeat": {"over": "mip", "of": "a.b"}, "bind": {"a.b": 3}}])");
+    EXPECT_THAT(text, HasSubstr("g.json: "));
+    EXPECT_THAT(text, HasSubstr("there is no key 'colour'"));
+    EXPECT_THAT(text, HasSubstr("parameters.scale: 'default' is missing"));
+    EXPECT_THAT(text, HasSubstr("'blur' is no resource name"));
+    EXPECT_THAT(text, HasSubstr("there is no format 'rgba16g' (did you mean 'rgba16"));
+    EXPECT_THAT(text, HasSubstr("there is no kind 'texture_4d' (did you mean 'texture_"));
+    EXPECT_THAT(text, HasSubstr("passes[0]: there is no pass type 'compoot' (did you mean 'compute'?)"));
+    EXPECT_THAT(text, HasSubstr("passes[1]: 'shader' is missing"));
+    EXPECT_THAT(text, HasSubstr("'Big' is no pass id"));
+    EXPECT_THAT(text, HasSubstr("nothing repeats over 'mip' (did you mean 'mips'?)"));
+    EXPECT_THAT(text, HasSubstr("passes[2].bind.a.b"));
+}
+
+TEST_F(GraphFileErrors, BrokenJsonNamesItsLine) {
+    root.write("assets/graphs/g.json", "{\n  \"version\": 1,\n  \"passes\": [,]\n}\n");
+    EXPECT_THAT(error_of([&] { load_graph_file(root / "assets/graphs/g.json"); }), HasSubstr("g.json:3: not JSON"));
+}
+
+TEST_F(GraphFileErrors, NoVersionNoPassesTwiceTheSameId) {
+    root.write("assets/graphs/g.json", "{}");
+    EXPECT_THAT(error_of([&] { load_graph_file(root / "assets/graphs/g.json"); }),
+                AllOf(HasSubstr("'version' must be 1"), HasSubstr("'passes' must be a list")));
+    shader("x.comp", "");
+    EXPECT_THAT(
+        errors(
+            R"("passes": [{"id":"x","type":"compute","shader":"x.comp"},{"id":"x","type":"compute","shader":"x.comp"},
+                                     {"id":"graph","type":"compute","shader":"x.comp"}])"),
+        AllOf(HasSubstr("two passes have the id 'x'"), HasSubstr("cannot have the id 'graph'")));
+}
+
+TEST_F(GraphFileErrors, AGraphThatIsNotThereNamesTheNearest) {
+    graph_file(R"("passes": [])");
+    EXPECT_EQ(error_of([] { find_graph("gg"); }), "there is no graph 'gg' (did you mean 'g'?)");
+}
+
+TEST_F(GraphFileErrors, ParametersOfAllPassesAreCheckedTogether) {
+    shader("x.comp", "uniform float width = 1.0; //! [0, 2] how wide\nuniform int kind = 0; //! {soft, hard} which");
+    std::string text = error_of([&] {
+        model(R"("passes": [{"id":"x","type":"compute","shader":"x.comp","params":{"widht": 1, "kind": "herd"}},
+                            {"id":"y","type":"compute","shader":"x.comp","params":{"width": 3}}])");
+    });
+    EXPECT_THAT(text, HasSubstr("there is no parameter 'widht' (did you mean 'width'?)"));
+    EXPECT_THAT(text, HasSubstr("'herd' is not a choice of parameter 'kind' (did you mean 'hard'?)"));
+    EXPECT_THAT(text, HasSubstr("pass 'y': '3' is out of range for parameter 'width': it takes a number [0, 2]"));
+}
+
+TEST_F(GraphFileErrors, SlotsWithoutSourceAreToldTogetherWithWhatThereIs) {
+    shader("x.comp", "uniform sampler2D blur_sorce;\nlayout(FORMAT_made_here) writeonly uniform image2D made_here;\n"
+                     "layout(std430) buffer blur_source { float values[]; };");
+    std::string text = error_of([&] {
+        plan(R"("resources": {"blur.source": {}, "made.here": {}},
+                "passes": [{"id":"x","type":"compute","shader":"x.comp","bind":{"made.there":"made.here"}}])");
+    });
+    EXPECT_THAT(
+        text,
+        HasSubstr("pass 'x' (x.comp:2) reads 'blur.sorce', which nothing declares (did you mean 'blur.source'?)"));
+    EXPECT_THAT(text, HasSubstr("uses 'blur.source' as a buffer, but it is a texture_2d"));
+    EXPECT_THAT(text, HasSubstr("pass 'x' has no slot 'made.there' (did you mean 'made.here'?)"));
+}
+
+TEST_F(GraphFileErrors, SizesThatCannotBe) {
+    shader("x.comp",
+           "layout(FORMAT_a_a) writeonly uniform image2D a_a; layout(FORMAT_b_b) writeonly uniform image2D b_b;");
+    shader("x.comp",
+           "layout(FORMAT_a_a) writeonly uniform image2D a_a;\nlayout(FORMAT_b_b) writeonly uniform image2D b_b;\n"
+           "layout(FORMAT_c_c) writeonly uniform image2D c_c;\nlayout(FORMAT_d_d) writeonly uniform image2D d_d;");
+    std::string text = error_of([&] {
+        plan(R"("resources": {"a.a": {"size": ["b.b.width", 1]}, "b.b": {"size": ["a.a.width", 1]},
+                              "c.c": {"size": ["wdth / 2", 1]}, "d.d": {"size": ["width - 700", 4]}},
+                "passes": [{"id":"x","type":"compute","shader":"x.comp"}])");
+    });
+    EXPECT_THAT(text, HasSubstr("depends on itself"));
+    EXPECT_THAT(text, HasSubstr("'wdth' in 'wdth / 2' is no name that is known here"));
+    EXPECT_THAT(text, HasSubstr("'width - 700' gives -60; it must be at least 1"));
+}
+
+/// An expression that only a frame evaluates must not wait for that frame to be found wrong.
+TEST_F(GraphFileErrors, DispatchAndBindExpressionsAreCheckedWithThePlan) {
+    shader("x.comp", "layout(FORMAT_a_a) writeonly uniform image2D a_a;");
+    std::string start =
+        R"("resources": {"a.a": {"mips": 3, "size": [8, 8]}}, "passes": [{"id":"x","type":"compute","shader":"x.comp",)";
+    auto problem = [&](const std::string& rest) { return error_of([&] { plan(start + rest + "}]"); }); };
+    EXPECT_THAT(problem(R"("dispatch": ["widht", 1])"), HasSubstr("'widht' in 'widht' is no name that is known here"));
+    EXPECT_THAT(problem(R"("dispatch": ["width -", 1])"), HasSubstr("is no expression"));
+    EXPECT_THAT(problem(R"("dispatch": "a.b")"), HasSubstr("a.b"));
+    EXPECT_THAT(problem(R"("bind": {"a.a": {"resource": "a.a", "mip": "iteration - 1"}})"),
+                HasSubstr("must be at least 0"));
+    EXPECT_THAT(problem(R"("bind": {"a.a": {"resource": "a.a", "mip": "iterration"}})"), HasSubstr("iterration"));
+    EXPECT_THAT(problem(R"("dispatch": ["width", "height", "iteration + 1"], "repeat": {"over": "mips", "of": "a.a"},
+                           "bind": {"a.a": {"resource": "a.a", "mip": "iteration"}})"),
+                IsEmpty());
+}
+
+TEST_F(GraphFileErrors, WhatAShaderCannotDoWithItsResource) {
+    shader("reads.comp", "uniform sampler3D a_a;\nlayout(FORMAT_b_b) writeonly uniform image2D b_b;");
+    shader("fill.comp", "layout(FORMAT_a_a) writeonly uniform image2D a_a;");
+    std::string text = error_of([&] {
+        plan(R"("resources": {"a.a": {}, "b.b": {"format": "srgb8_alpha8"}},
+                "passes": [{"id":"fill","type":"compute","shader":"fill.comp"},{"id":"reads","type":"compute","shader":"reads.comp"}])");
+    });
+    EXPECT_THAT(text, HasSubstr("pass 'reads' (reads.comp:2) uses 'a.a' as a sampler3D, but it is a texture_2d"));
+    EXPECT_THAT(text, HasSubstr("srgb8_alpha8"));
+    shader("previous.comp", "layout(FORMAT_a_a) uniform image2D a_a;");
+    EXPECT_THAT(error_of([&] {
+                    plan(R"("resources": {"a.a": {}}, "passes": [{"id":"x","type":"compute","shader":"fill.comp","bind":{"a.a":"previous(a.a)"}
+}])");
+}),
+                HasSubstr("last frame's copy"));
+}
