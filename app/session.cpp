@@ -54,7 +54,7 @@ void Session::open_shot(const std::string& name) {
 
 void Session::open_graph(const std::string& name) {
     auto next = std::make_unique<Graph>(find_graph(name), timer_mode_);
-    next->model().adopt(graph_->model());
+    next->model().adopt_values(graph_->model());
     next->check_nan = graph_->check_nan;
     next->prepare(facts_, size_);
     graph_ = std::move(next);

@@ -1,10 +1,68 @@
 // bounce view: the window.
 #include "app/commands/command.h"
+#include "app/commands/session_options.h"
+#include "app/ui/viewer_app.h"
 #include "core/error.h"
 
+#include <cstdlib>
+#include <fmt/format.h>
+#include <regex>
+
 namespace bounce {
-void add_view_command(CLI::App&, CommandFunction&) {}
-int run_default() {
-    return render_default();
+
+namespace {
+
+struct ViewArguments : SessionArguments {
+    ViewOptions view;
+    std::string window;
+};
+
+glm::ivec2 window_size(const std::string& text) {
+    static const std::regex form("([0-9]{3,5})x([0-9]{3,5})");
+    std::smatch match;
+    if (!std::regex_match(text, match, form)) throw Error(fmt::format("--window {}: it is written WxH, as 1366x768", text));
+    return {std::stoi(match[1]), std::stoi(match[2])};
 }
+
+int view(const ViewArguments& arguments) {
+    ViewOptions options = arguments.view;
+    options.session = arguments.options();
+    if (options.frames < 0 || options.frames > 1000000) throw Error(fmt::format("--frames {}: it is 1 … 1000000", options.frames));
+    if (!arguments.window.empty()) options.window_size = window_size(arguments.window);
+    ViewerApp(std::move(options)).run();
+    return 0;
+}
+
+bool display_is_there() {
+    for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY"}) {
+        const char* value = std::getenv(name);
+        if (value && *value) return true;
+    }
+    return false;
+}
+
+} // namespace
+
+void add_view_command(CLI::App& app, CommandFunction& chosen) {
+    auto* command = app.add_subcommand("view", "open the window (the shot and graph of the last time where none is given)");
+    auto arguments = std::make_shared<ViewArguments>();
+    arguments->add_to(*command, false);
+    command->add_option("--window", arguments->window, "WxH of the window");
+    command->add_option("--frames", arguments->view.frames, "quit after so many rendered frames");
+    command->add_option("--capture-on-exit", arguments->view.capture_on_exit, "write the last picture to this .png or .exr");
+    // For tests of the window.
+    command->add_option("--dump-ui", arguments->view.dump_ui, "tell each drawn frame to this .json")->group("");
+    command->add_option("--simulate-reset", arguments->view.simulate_reset, "lose the GPU after so many frames")->group("");
+    command->callback([arguments, command, &chosen] {
+        arguments->view.shot_given = command->count("shot") > 0;
+        arguments->view.graph_given = command->count("--graph") > 0;
+        chosen = [arguments] { return view(*arguments); };
+    });
+}
+
+int run_default() {
+    if (!display_is_there()) return render_default();
+    return view(ViewArguments());
+}
+
 } // namespace bounce

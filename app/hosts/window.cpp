@@ -9,8 +9,8 @@
 #include <cctype>
 #include <fmt/format.h>
 #include <imgui.h>
-#include <imgui_impl_glfw.h>
-#include <imgui_impl_opengl3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
 #include <map>
 
 namespace bounce {

@@ -1,9 +1,12 @@
 #include "app/panels/parameter_widget.h"
 
+#include "app/ui/widget_rects.h"
+
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <imgui.h>
+#include <utility>
 
 namespace bounce {
 
@@ -45,24 +48,25 @@ static bool draw_integer(const ParameterInfo& info, int& value) {
     return ImGui::DragInt("##value", &value, std::max(0.2f, std::abs(float(value)) * 0.01f), min, max, "%d", ImGuiSliderFlags_AlwaysClamp);
 }
 
-static bool draw_choice(const ParameterInfo& info, int& value) {
+static bool draw_choice(const std::string& name, const ParameterInfo& info, int& value) {
     bool known = value >= 0 && value < int(info.choices.size());
     if (!ImGui::BeginCombo("##value", known ? info.choices[size_t(value)].c_str() : "?")) return false;
     int chosen = value;
     for (int i = 0; i < int(info.choices.size()); ++i) {
         if (ImGui::Selectable(info.choices[size_t(i)].c_str(), i == value)) chosen = i;
+        note_widget(name + "." + info.choices[size_t(i)]);
     }
     ImGui::EndCombo();
     return std::exchange(value, chosen) != chosen;
 }
 
-bool draw_parameter_widget(const ParameterInfo& info, ParameterValue& value, bool& at_once) {
+bool draw_parameter_widget(const std::string& name, const ParameterInfo& info, ParameterValue& value, bool& at_once) {
     at_once = info.kind == ParameterKind::boolean || info.kind == ParameterKind::enumeration;
     ImGui::SetNextItemWidth(-FLT_MIN);
     switch (info.kind) {
     case ParameterKind::boolean: return ImGui::Checkbox("##value", &std::get<bool>(value));
     case ParameterKind::integer: return draw_integer(info, std::get<int>(value));
-    case ParameterKind::enumeration: return draw_choice(info, std::get<int>(value));
+    case ParameterKind::enumeration: return draw_choice(name, info, std::get<int>(value));
     case ParameterKind::real: return draw_reals(info, &std::get<float>(value), 1);
     case ParameterKind::vec2: return draw_reals(info, &std::get<glm::vec2>(value).x, 2);
     case ParameterKind::vec3: return draw_reals(info, &std::get<glm::vec3>(value).x, 3);

@@ -63,13 +63,13 @@ void draw_menu(PanelContext& context, const std::string& name, const Parameter& 
 
 /// The widget, and the edit that it makes: one step of undo from press to release.
 void draw_value(PanelContext& context, const std::string& id, const Parameter& parameter) {
-    const ParameterInfo info = parameter.info; // a change may make the shader, and so the parameters, be read again
+    const ParameterInfo& info = parameter.info;
     const ParameterText before = text_of(id, parameter);
     ParameterEdit& edit = context.ui.edit;
     bool held = info.is_static && edit.name == before.name; // what is compiled in waits for the end of the drag
     ParameterValue value = held && edit.value.index() == parameter.value.index() ? edit.value : parameter.value;
     bool at_once = false;
-    bool changed = draw_parameter_widget(info, value, at_once);
+    bool changed = draw_parameter_widget(before.name, info, value, at_once);
     note_widget(before.name);
     bool begun = ImGui::IsItemActivated(), ended = ImGui::IsItemDeactivated(), edited = ImGui::IsItemDeactivatedAfterEdit();
     if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) ImGui::OpenPopup("menu");
@@ -90,7 +90,7 @@ void draw_value(PanelContext& context, const std::string& id, const Parameter& p
 
 void draw_row(PanelContext& context, const NamedParameter& named, const std::string& type) {
     std::string name = named.name();
-    const Parameter parameter = *named.parameter; // outlives a reload by one of the widgets
+    const Parameter& parameter = *named.parameter;
     ImGui::PushID(name.c_str());
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -107,7 +107,7 @@ void draw_row(PanelContext& context, const NamedParameter& named, const std::str
     }
     ImGui::TableNextColumn();
     draw_value(context, named.id, parameter);
-    if (ImGui::GetActiveID() == 0) show_tooltip(help_text(name, type, parameter));
+    if (!ImGui::IsAnyItemActive()) show_tooltip(help_text(name, type, parameter));
     draw_menu(context, name, parameter);
     ImGui::PopID();
 }

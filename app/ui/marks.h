@@ -1,17 +1,14 @@
 #pragma once
-// What panels have in common: colours with a meaning, text, tooltips.
+// What panels of data have in common: text as it is, numbers, tooltips.
 
-#include <imgui.h>
+#include "app/ui/style.h"
+
 #include <string>
 
 namespace bounce {
 
-inline constexpr ImVec4 k_error_colour{1.00f, 0.42f, 0.38f, 1};
-inline constexpr ImVec4 k_warning_colour{1.00f, 0.76f, 0.30f, 1};
-inline constexpr ImVec4 k_good_colour{0.50f, 0.82f, 0.50f, 1};
-inline constexpr ImVec4 k_dim_colour{0.58f, 0.60f, 0.64f, 1};
-inline constexpr ImVec4 k_bar_colour{0.28f, 0.45f, 0.68f, 0.75f};
-inline constexpr ImVec4 k_pinned_colour{0.95f, 0.76f, 0.35f, 1};
+inline const ImVec4 k_bar_colour{0.36f, 0.62f, 0.92f, 0.38f};
+inline const ImVec4 k_pinned_colour{0.95f, 0.76f, 0.35f, 1};
 
 /// Text as it is: a % in a name is no format.
 inline void show_text(const std::string& text) {

@@ -14,11 +14,11 @@ void load_fonts(float scale, float pixel_ratio);
 ImFont* fixed_font();
 float interface_scale(); ///< of the last apply_style
 
-inline constexpr ImVec4 k_error_colour{1.00f, 0.42f, 0.38f, 1};
-inline constexpr ImVec4 k_warning_colour{0.98f, 0.76f, 0.35f, 1};
-inline constexpr ImVec4 k_good_colour{0.50f, 0.82f, 0.50f, 1};
-inline constexpr ImVec4 k_dim_colour{0.60f, 0.60f, 0.62f, 1};
-inline constexpr ImVec4 k_accent_colour{0.36f, 0.62f, 0.92f, 1};
+inline const ImVec4 k_error_colour{1.00f, 0.42f, 0.38f, 1};
+inline const ImVec4 k_warning_colour{0.98f, 0.76f, 0.35f, 1};
+inline const ImVec4 k_good_colour{0.50f, 0.82f, 0.50f, 1};
+inline const ImVec4 k_dim_colour{0.60f, 0.60f, 0.62f, 1};
+inline const ImVec4 k_accent_colour{0.36f, 0.62f, 0.92f, 1};
 
 /// A small "(?)"-less help: the text appears when the last item is hovered.
 void help(const char* text);

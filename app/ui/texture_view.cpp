@@ -55,7 +55,7 @@ float from_ordered_bits(uint32_t bits) {
     return std::bit_cast<float>(bits & 0x80000000u ? bits & 0x7FFFFFFFu : ~bits);
 }
 
-struct Range {
+struct FoundRange {
     uint32_t low = 0xFFFFFFFFu, high = 0, non_finite = 0;
 };
 
@@ -87,7 +87,7 @@ void dispatch(const Program& program, glm::ivec3 size) {
 // Texels are fetched, but a sampler must still find the texture complete: integers refuse linear filters.
 TextureView::TextureView()
     : sampler_(GL_NEAREST_MIPMAP_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE, "texture view"),
-      range_(sizeof(Range), nullptr, "texture view range") {}
+      range_(sizeof(FoundRange), nullptr, "texture view range") {}
 
 Program& TextureView::program(const char* file, const TextureDesc& desc) {
     std::string sampler = std::string(sampler_prefix(format_by_enum(desc.format).kind)) + sampler_suffix(desc.kind);
@@ -115,7 +115,7 @@ void TextureView::bind_source(const Program& program, const GpuTexture& source, 
 }
 
 void TextureView::find_range(const GpuTexture& source, const ViewerSettings& settings) {
-    Range range;
+    FoundRange range;
     if (!settings.automatic_range) range = {ordered_bits(settings.low), ordered_bits(settings.high), 0};
     range_.update(0, sizeof range, &range);
     if (!settings.automatic_range) return;
@@ -149,14 +149,14 @@ const GpuTexture& TextureView::draw(const GpuTexture& source, const ViewerSettin
 }
 
 glm::vec2 TextureView::range() const {
-    Range range;
+    FoundRange range;
     range_.read(0, sizeof range, &range);
     if (range.low == 0xFFFFFFFFu) return {0, 1};
     return {from_ordered_bits(range.low), from_ordered_bits(range.high)};
 }
 
 uint32_t TextureView::non_finite() const {
-    Range range;
+    FoundRange range;
     range_.read(0, sizeof range, &range);
     return range.non_finite;
 }

@@ -15,7 +15,7 @@ uniform int mark_non_finite;
 
 // 0 at low, 1 at high. A range without extent shows what lies on it as mid grey.
 float position_in_range(float value, float low, float high) {
-    if (low == high) return value < low ? 0.0 : value > high ? 1.0 : 0.5;
+    if (low == high) return value < low ? 0.0 : value > high ? 1.0 : 128.0 / 255.0;
     if (logarithmic == 0) return clamp((value - low) / (high - low), 0.0, 1.0);
     // Nothing is at a finite distance from zero: six decades are enough for a picture.
     float least = max(low, high * 1.0e-6);

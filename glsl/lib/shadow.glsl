@@ -32,12 +32,14 @@ int shadow_layer(Light light, vec3 position) {
     return light.shadow_base + (light.type == k_light_point ? cube_face(position - light.position) : 0);
 }
 
-// The share of the (2r+1)² texels around `position` from which the light is seen. `normal`: the geometric one, facing l.
-// The position is moved along the normal by `normal_offset` texels times the sine of the angle of incidence: on a plane,
-// (r + ½)·√2 texels suffice (the depth of a tilted plane changes by tan θ a texel, and the move gains 1/cos θ).
-float shadow_visibility(sampler2DArray shadow_map, ShadowView view, int layer, vec3 position, vec3 normal, vec3 l,
+// The share of the (2r+1)² texels around `position` from which the light is seen. `normal`: the geometric one, facing the
+// light. The position is moved along the normal by `normal_offset` texels times the sine of the angle between the normal
+// and the view's axis: on a plane, (r + ½)·√2 texels suffice (the depth of a tilted plane changes by tan θ a texel, and
+// the move gains 1/cos θ). The axis and not the light's direction counts: away from the axis of a perspective view, even
+// a plane that faces the light lies aslant to the texels.
+float shadow_visibility(sampler2DArray shadow_map, ShadowView view, int layer, vec3 position, vec3 normal,
                         float normal_offset, float depth_bias, int radius) {
-    float cosine = clamp(dot(normal, l), 0.0, 1.0);
+    float cosine = clamp(abs(dot(normal, view.direction)), 0.0, 1.0);
     float sine = sqrt(1.0 - cosine * cosine);
     float along = dot(position - view.origin, view.direction);
     float texel = view.range > 0.0 ? view.texel_size : view.texel_size * max(along, view.near_plane);

@@ -47,7 +47,7 @@ void main() {
         if (cosine <= 0.0 || dot(face, l) <= 0.0 || max(irradiance.r, max(irradiance.g, irradiance.b)) <= 0.0) continue;
         if (shadows && light.shadow_base >= 0) {
             int layer = shadow_layer(light, position);
-            irradiance *= shadow_visibility(shadow_depth, views[layer], layer, position, face, l, normal_offset, depth_bias, filter_radius);
+            irradiance *= shadow_visibility(shadow_depth, views[layer], layer, position, face, normal_offset, depth_bias, filter_radius);
         }
         vec3 f = brdf_diffuse(base_colour, rm.y);
         if (diffuse_only == 0) f += brdf_specular(n, v, l, base_colour, rm.y, rm.x);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace bounce {
 
@@ -27,11 +28,16 @@ void Program::disable() {
     disabled_ = true;
 }
 
+void Program::recall(std::vector<ShaderError> errors) {
+    errors_ = std::move(errors);
+    up_to_date_ = errors_.empty() && usable();
+}
+
 void Program::scan(const Defines& defines, const Defines& static_values) {
     sources_.clear();
     files_.clear();
-    parameters_.clear();
-    slots_.clear();
+    auto last_parameters = std::exchange(parameters_, {});
+    auto last_slots = std::exchange(slots_, {});
     errors_.clear();
     up_to_date_ = false;
     auto add_once = [](auto& list, const auto& item, auto key) {
@@ -51,6 +57,12 @@ void Program::scan(const Defines& defines, const Defines& static_values) {
         for (const auto& slot : source.slots)
             add_once(slots_, slot, [](auto& s) { return s.identifier; });
         errors_.insert(errors_.end(), source.errors.begin(), source.errors.end());
+    }
+    if (errors_.empty()) {
+        read_once_ = true;
+    } else if (read_once_) {
+        parameters_ = std::move(last_parameters);
+        slots_ = std::move(last_slots);
     }
 }
 

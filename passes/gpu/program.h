@@ -45,7 +45,8 @@ class Program {
     Program& operator=(const Program&) = delete;
 
     /// Reads the sources again (no OpenGL). Afterwards parameters(), slots(), files() are those of the files as they
-    /// are.
+    /// are; while one cannot be read (an editor may be halfway through saving it), parameters and slots stay as they
+    /// were.
     void scan(const Defines& defines, const Defines& static_values);
     /// Compiles and links what was scanned; `check` may refuse the interface (it returns what is wrong). On success the
     /// new program replaces the old; on failure the last good one stays and errors() says why. Returns success.
@@ -63,6 +64,8 @@ class Program {
     const std::vector<ShaderSlot>& slots() const { return slots_; }
     const std::vector<ShaderSource>& sources() const { return sources_; }
     const std::vector<std::filesystem::path>& stages() const { return stages_; }
+    /// Takes up what an earlier build() of this same text came to, without asking the driver again.
+    void recall(std::vector<ShaderError> errors);
     /// Lets go of the program after it hung the GPU; it comes back when its text changes.
     void disable();
 
@@ -80,6 +83,7 @@ class Program {
     ProgramInterface interface_;
     GLuint id_ = 0;
     bool up_to_date_ = false;
+    bool read_once_ = false; ///< all files have been read without an error at some time
     bool disabled_ = false;
 };
 

@@ -136,6 +136,10 @@ class Expander {
                 error(out_.files[file], number, line, "an include is written #include \"file\"");
                 return;
             }
+            if (!active()) {
+                emit("//", file, number); // once a stage: it must not use up the file's one turn
+                return;
+            }
             fs::path beside = out_.files[file].parent_path() / match[1].str();
             fs::path target = fs::exists(beside) ? beside : folder_ / match[1].str();
             include(target, {shown(out_.files[file], folder_), number, line, ""});
@@ -152,11 +156,13 @@ class Expander {
         }
     }
 
-    /// Follows #ifdef and #ifndef over the names that the text itself defines, so that slots and parameters behind
-    /// them are known to be there or not. Other conditions (#if) are left open: their branches all count.
+    /// Follows #if 0, #if 1, #ifdef and #ifndef over the names that the text itself defines, so that slots and
+    /// parameters behind them are known to be there or not. Other conditions (#if) are left open: their branches all
+    /// count.
     void follow_condition(const std::string& directive) {
         static const std::regex define(R"(define\s+(\w+).*)"), undef(R"(undef\s+(\w+).*)");
         static const std::regex ifdef(R"(ifdef\s+(\w+).*)"), ifndef(R"(ifndef\s+(\w+).*)");
+        static const std::regex constant(R"(if\s+([01])\s*(//.*)?)");
         std::smatch match;
         auto defined = [&](const std::string& name) { return defines_.contains(name) || seen_.contains(name); };
         if (std::regex_match(directive, match, define)) {
@@ -167,6 +173,8 @@ class Expander {
             conditions_.push_back(defined(match[1]));
         } else if (std::regex_match(directive, match, ifndef)) {
             conditions_.push_back(!defined(match[1]));
+        } else if (std::regex_match(directive, match, constant)) {
+            conditions_.push_back(match[1] != "0");
         } else if (directive.starts_with("if")) {
             conditions_.push_back(std::nullopt);
         } else if (directive.starts_with("else") && !conditions_.empty()) {
@@ -236,6 +244,7 @@ class Expander {
         slot.writes = slot.kind != SlotKind::sampled && !has("readonly");
         slot.reads = !has("writeonly");
         slot.where = where;
+        slot.certain = std::all_of(conditions_.begin(), conditions_.end(), [](auto& c) { return c.has_value(); });
         if (size_t mark = line.find("//!"); mark != std::string::npos) {
             slot.optional = trim(std::string_view(line).substr(mark + 3)).starts_with("optional");
         }
@@ -294,14 +303,14 @@ ShaderSource expand_shader(const fs::path& file, const fs::path& folder, const D
 
 std::vector<ShaderError> translate_log(const std::string& log, const ShaderSource& source, const fs::path& folder) {
     static const std::regex forms[] = {
-        std::regex(R"(^\s*\d+:(\d+)\(\d+\):\s*(.*)$)"),               // Mesa
-        std::regex(R"(^\s*\d+\((\d+)\)\s*:\s*(.*)$)"),                // NVIDIA
-        std::regex(R"(^\s*(?:ERROR|WARNING):\s*\d+:(\d+):\s*(.*)$)"), // AMD, Intel, glslang
+        std::regex(R"(^\s*\d+:(\d+)\(\d+\):\s*(.*)$)"),   // Mesa
+        std::regex(R"(^\s*\d+\((\d+)\)\s*:\s*(.*)$)"),    // NVIDIA
+        std::regex(R"(^\s*ERROR:\s*\d+:(\d+):\s*(.*)$)"), // AMD, Intel, glslang
     };
     std::vector<std::string> flat = split(source.text, '\n');
     std::vector<ShaderError> errors;
     for (const std::string& line : split(log, '\n')) {
-        if (trim(line).empty()) continue;
+        if (trim(line).empty() || trim(line).starts_with("WARNING:")) continue;
         std::smatch match;
         ShaderError error;
         error.message = line;

@@ -36,6 +36,7 @@ struct ShaderSlot {
     bool reads = true;
     bool writes = false;
     bool optional = false; ///< "//! optional": a neutral value is read when nothing produces it
+    bool certain = true;   ///< false inside an #if whose outcome only the compiler knows
     std::string where;     ///< "glsl/x.comp:12"
 };
 /// "gbuffer_normal" ↔ "gbuffer.normal".

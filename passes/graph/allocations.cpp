@@ -8,6 +8,7 @@ namespace bounce {
 
 bool Allocations::update(const Plan& plan) {
     std::vector<std::unique_ptr<Entry>> next;
+    std::map<size_t, Entry> copies;                // last frame's, by new index: made before anything old is given up
     std::vector<std::pair<size_t, size_t>> reused; // new index, old index
     bool history_lost = false;
     for (const PlanResource& resource : plan.resources) {
@@ -16,6 +17,14 @@ bool Allocations::update(const Plan& plan) {
                    (e->is_buffer ? e->bytes == resource.bytes : e->desc == resource.texture);
         };
         auto old = std::find_if(entries_.begin(), entries_.end(), fits);
+        bool has_copy = old != entries_.end() && ((*old)->previous_texture || (*old)->previous_buffer);
+        if (resource.needs_previous && !has_copy) {
+            Entry& copy = copies[next.size()];
+            if (resource.is_buffer())
+                copy.previous_buffer = Buffer(resource.bytes, nullptr, resource.name() + " (previous)");
+            else
+                copy.previous_texture = GpuTexture(resource.texture, resource.name() + " (previous)");
+        }
         if (old != entries_.end()) {
             reused.emplace_back(next.size(), size_t(old - entries_.begin()));
             next.push_back(nullptr);
@@ -45,11 +54,11 @@ bool Allocations::update(const Plan& plan) {
             entry.previous_texture = {};
             entry.previous_buffer = {};
         } else if (resource.is_buffer() && !entry.previous_buffer) {
-            entry.previous_buffer = Buffer(resource.bytes, nullptr, resource.name() + " (previous)");
+            entry.previous_buffer = std::move(copies.at(i).previous_buffer);
             entry.previous_buffer.clear();
             history_lost = true;
         } else if (!resource.is_buffer() && !entry.previous_texture) {
-            entry.previous_texture = GpuTexture(resource.texture, resource.name() + " (previous)");
+            entry.previous_texture = std::move(copies.at(i).previous_texture);
             entry.previous_texture.clear(resource.declaration.neutral);
             history_lost = true;
         }

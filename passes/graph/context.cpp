@@ -49,12 +49,8 @@ std::optional<double> PassContext::number(const std::string& name) const {
     size_t last = name.rfind('.');
     if (last != std::string::npos) {
         const PlanResource* resource = graph_.plan_.find_resource(name.substr(0, last));
-        std::string side = name.substr(last + 1);
-        if (resource && side == "width") return resource->texture.size.x;
-        if (resource && side == "height") return resource->texture.size.y;
-        if (resource && side == "depth") return resource->texture.size.z;
-        if (resource && side == "mips") return resource->texture.mips;
-        if (resource && side == "count") return double(resource->count);
+        auto side = resource ? side_of(*resource, name.substr(last + 1)) : std::nullopt;
+        if (side) return side;
     }
     return model.number(name);
 }
@@ -141,7 +137,8 @@ Program& PassContext::use(const std::string& name) {
                                 index_at(s->bind.layer, iteration), sampler_is_2d(sampler.type))
                           .id();
         } else {
-            texture = graph_.neutral_texture(sampler.type, s ? s->neutral : glm::vec4(0));
+            texture = graph_.neutral_texture(sampler.type, s ? s->neutral : glm::vec4(0),
+                                             s ? s->neutral_size : glm::ivec2(1));
         }
         glBindTextureUnit(GLuint(sampler.unit), texture);
         glBindSampler(GLuint(sampler.unit), shadow ? graph_.comparison_sampler_.id() : 0);
@@ -263,6 +260,7 @@ void PassContext::draw_scene(const std::string& name, const Targets& targets, co
             reinterpret_cast<const void*>(uintptr_t(draw.first_index) * sizeof(uint32_t)), options.instances,
             GLuint(i));
     }
+    if (culling) glDisable(GL_CULL_FACE);
 }
 
 void PassContext::draw_fullscreen(const std::string& program, const Targets& targets) {

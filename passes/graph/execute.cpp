@@ -34,6 +34,11 @@ void Graph::execute(const FrameInputs& inputs) {
     frame_buffer_.update(0, sizeof(FrameConstants), &inputs.constants);
     for (const PlanPass& pass : plan_.passes)
         run_pass(pass);
+    std::erase_if(broke_, [&](const auto& broken) {
+        return std::none_of(plan_.passes.begin(), plan_.passes.end(), [&](auto& p) { return p.id == broken.first; });
+    });
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT |
+                    GL_BUFFER_UPDATE_BARRIER_BIT); // the copies wait for shaders' stores
     allocations_.keep_previous(plan_);
     history_valid_ = true;
     glMemoryBarrier(GL_ALL_BARRIER_BITS); // whoever looks at the results (panels, readback) sees them
@@ -56,11 +61,18 @@ void Graph::run_pass(const PlanPass& pass) {
     }
     if (pass.barriers) glMemoryBarrier(pass.barriers);
     if (usable) {
-        for (int step = pass.repeat_from; step < pass.repeat_to; ++step) {
-            if (step > pass.repeat_from && pass.step_barriers) glMemoryBarrier(pass.step_barriers);
-            default_state();
-            PassContext context(*this, pass, step);
-            node.pass->execute(context);
+        try {
+            for (int step = pass.repeat_from; step < pass.repeat_to; ++step) {
+                if (step > pass.repeat_from && pass.step_barriers) glMemoryBarrier(pass.step_barriers);
+                default_state();
+                PassContext context(*this, pass, step);
+                node.pass->execute(context);
+            }
+            broke_.erase(pass.id);
+        } catch (const Error& error) {
+            if (broke_[pass.id] != error.what()) spdlog::error("pass '{}': {}", pass.id, error.what());
+            broke_[pass.id] = error.what();
+            fill_failed(pass);
         }
     } else {
         fill_failed(pass);
@@ -149,12 +161,27 @@ static GLenum neutral_format(GLenum type) {
     }
 }
 
-GLuint Graph::neutral_texture(GLenum type, glm::vec4 value) {
-    auto key = std::make_pair(type, std::array<float, 4>{value.x, value.y, value.z, value.w});
+GLuint Graph::neutral_texture(GLenum type, glm::vec4 value, glm::ivec2 size) {
+    // 2D ones are as large as what they stand for, so that a fetch finds the value at every texel; a byte a texel does,
+    // since zeros and ones come from the swizzle. Volumes and arrays have one texel: they are read through a filter.
+    TextureDesc desc{kind_of_sampler(type), neutral_format(type), {1, 1, 1}, 1};
+    bool plain = desc.format == GL_RGBA16F;
+    for (int i = 0; i < 4; ++i)
+        plain = plain && (value[i] == 0 || value[i] == 1);
+    if (plain) desc.format = GL_R8;
+    if (desc.kind == TextureKind::texture_2d) desc.size = glm::ivec3(size, 1);
+    auto key = std::make_tuple(type, std::array<float, 4>{value.x, value.y, value.z, value.w},
+                               std::array<int, 2>{size.x, size.y});
     auto found = neutrals_.find(key);
     if (found == neutrals_.end()) {
-        GpuTexture texture({kind_of_sampler(type), neutral_format(type), {1, 1, 1}, 1}, "neutral");
+        GpuTexture texture(desc, "neutral");
         texture.clear(value);
+        if (plain) {
+            GLint swizzle[4];
+            for (int i = 0; i < 4; ++i)
+                swizzle[i] = value[i] == 0 ? GL_ZERO : GL_ONE;
+            glTextureParameteriv(texture.id(), GL_TEXTURE_SWIZZLE_RGBA, swizzle);
+        }
         found = neutrals_.emplace(key, std::move(texture)).first;
     }
     return found->second.id();

@@ -53,7 +53,8 @@ double evaluate(const std::string& expression, const NameLookup& lookup) {
 int evaluate_integer(const std::string& expression, const NameLookup& lookup, int least) {
     double value = std::floor(evaluate(expression, lookup) + 1e-9);
     if (value < least || value > 1 << 30) {
-        throw Error(fmt::format("'{}' gives {}; it must be at least {}", expression, value, least));
+        throw Error(value < least ? fmt::format("'{}' gives {}; it must be at least {}", expression, value, least)
+                                  : fmt::format("'{}' gives {}; it must be at most {}", expression, value, 1 << 30));
     }
     return int(value);
 }

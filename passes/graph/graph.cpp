@@ -59,6 +59,7 @@ void Graph::plan_again(const SceneFacts& facts, glm::ivec2 size) {
     Plan next = model_->plan(facts, size);
     bool resized = planned_ && plan_.size != size;
     bool lost = allocations_.update(next);
+    neutrals_.clear(); // they are as large as what they stand for
     plan_ = std::move(next);
     planned_facts_ = facts;
     planned_ = true;
@@ -86,6 +87,12 @@ std::vector<std::string> Graph::check_interface(const PassNode& node, const Plan
     for (const UniformInfo& uniform : interface.uniforms) {
         bool known = std::find(constants.begin(), constants.end(), uniform.name) != constants.end();
         const Parameter* parameter = node.parameters.find(uniform.name);
+        auto constant = frame_constant(FrameConstants{}, uniform.name);
+        if (constant && !uniform_takes(uniform.type, *constant)) {
+            problems.push_back(fmt::format("uniform '{}' is a constant of the frame, of another type (lib/frame.glsl "
+                                           "has it in the block Frame)",
+                                           uniform.name));
+        }
         if (!known && parameter && !uniform_takes(uniform.type, parameter->value)) {
             problems.push_back(
                 fmt::format("uniform '{}' and the parameter of that name are of different types", uniform.name));
@@ -117,6 +124,13 @@ std::vector<std::string> Graph::check_interface(const PassNode& node, const Plan
     return problems;
 }
 
+static std::vector<std::string> texts(const std::vector<ShaderError>& errors) {
+    std::vector<std::string> out;
+    for (const ShaderError& error : errors)
+        out.push_back(error.text());
+    return out;
+}
+
 void Graph::build_programs() {
     for (const PlanPass& pass : plan_.passes) {
         PassNode& node = *model_->nodes()[size_t(pass.node)];
@@ -125,14 +139,18 @@ void Graph::build_programs() {
             std::string text;
             for (const ShaderSource& source : program->sources())
                 text += source.text + '\0';
-            std::string& built = built_[node.id() + "/" + program->name()];
-            bool same = built == text;
-            if (same && program->errors().empty() && program->usable()) continue;
-            built = text;
+            Built& built = built_[node.id() + "/" + program->name()];
+            bool judged = program->usable() || program->disabled() || !built.errors.empty();
+            if (built.text == text && program->errors().empty() && judged) {
+                program->recall(built.errors); // what was wrong with this text still is
+                continue;
+            }
             bool good = program->build([&](const ProgramInterface& i) { return check_interface(node, pass, i); });
             if (good) newest_files_ = program->files();
+            bool told = built.text == text && texts(built.errors) == texts(program->errors());
             for (const ShaderError& error : program->errors())
-                spdlog::error("shader: {}", error.text());
+                if (!told) spdlog::error("shader: {}", error.text());
+            built = {text, program->errors()};
             if (good && frames_ > 0) spdlog::info("shader: {} compiled", program->stages().front().string());
         }
     }
@@ -155,11 +173,17 @@ bool Graph::poll_files() {
     if (std::find(changed.begin(), changed.end(), model_->file().path) != changed.end()) {
         try {
             auto next = std::make_unique<GraphModel>(load_graph_file(model_->file().path));
-            next->plan(planned_facts_, plan_.size); // refuses before anything of the old graph is given up
-            next->adopt(*model_);
+            next->adopt_values(*model_);
+            next->adopt_programs(*model_);
+            try {
+                Plan plan = next->plan(planned_facts_, plan_.size);
+                allocations_.update(plan);
+                plan_ = std::move(plan);
+            } catch (const Error&) {
+                model_->adopt_programs(*next); // the old graph goes on as it was
+                throw;
+            }
             model_ = std::move(next);
-            // The plan's node indices follow the new model.
-            plan_again(planned_facts_, plan_.size);
             file_problem_.clear();
             plan_problem_.clear();
             spdlog::info("graph '{}' reloaded", model_->file().name);
@@ -192,7 +216,7 @@ void Graph::disable_programs(const std::vector<std::filesystem::path>& files) {
             std::string text;
             for (const ShaderSource& source : program->sources())
                 text += source.text + '\0';
-            built_[node->id() + "/" + program->name()] = text;
+            built_[node->id() + "/" + program->name()] = {text, {}};
         }
     }
 }
@@ -204,6 +228,8 @@ std::vector<GraphProblem> Graph::problems() const {
     };
     graph_problem(file_problem_);
     graph_problem(plan_problem_);
+    for (const auto& [id, why] : broke_)
+        problems.push_back({"pass " + id, {model_->file().path.filename(), 0, "", why}});
     for (const auto& node : model_->nodes()) {
         for (const auto& program : node->programs) {
             if (program->disabled()) {

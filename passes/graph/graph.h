@@ -88,6 +88,12 @@ class Graph {
         std::deque<double> history;
     };
 
+    /// The text that was last given to the driver, and what it said.
+    struct Built {
+        std::string text;
+        std::vector<ShaderError> errors;
+    };
+
     void plan_again(const SceneFacts& facts, glm::ivec2 size);
     void build_programs();
     Defines formats_of(const PlanPass& pass) const;
@@ -97,7 +103,8 @@ class Graph {
     void run_pass(const PlanPass& pass);
     void fill_failed(const PlanPass& pass);
     void look_for_nan(const PlanPass& pass);
-    GLuint neutral_texture(GLenum sampler_type, glm::vec4 value);
+    /// What the consumers of a declined pass are given: `value` at every texel.
+    GLuint neutral_texture(GLenum sampler_type, glm::vec4 value, glm::ivec2 size);
     void watch();
 
     std::unique_ptr<GraphModel> model_;
@@ -109,14 +116,15 @@ class Graph {
     Allocations allocations_;
     FileWatch watch_;
     std::map<std::string, Times> times_;
-    std::map<std::string, std::string> built_; ///< per "id/program": the text that was last given to the driver
+    std::map<std::string, Built> built_;       ///< per "id/program"
+    std::map<std::string, std::string> broke_; ///< pass id → why it could not run in the newest frame
     std::vector<std::filesystem::path> newest_files_;
     std::string file_problem_, plan_problem_;
     SceneFacts planned_facts_;
     Buffer frame_buffer_;
     Sampler comparison_sampler_;
     VertexArray empty_vertex_array_;
-    std::map<std::pair<GLenum, std::array<float, 4>>, GpuTexture> neutrals_;
+    std::map<std::tuple<GLenum, std::array<float, 4>, std::array<int, 2>>, GpuTexture> neutrals_;
     std::unique_ptr<NanCheck> nan_check_;
     std::map<std::string, uint64_t> non_finite_;
     uint64_t frames_ = 0;

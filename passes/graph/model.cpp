@@ -190,18 +190,24 @@ std::vector<std::filesystem::path> GraphModel::files() const {
     return files;
 }
 
-void GraphModel::adopt(GraphModel& old) {
+void GraphModel::adopt_values(const GraphModel& old) {
     graph_parameters_.adopt(old.graph_parameters_);
     for (const auto& node : nodes_) {
-        PassNode* before = old.find_node(node->id());
+        const PassNode* before = old.find_node(node->id());
         if (!before || before->entry.type != node->entry.type) continue;
         node->parameters.adopt(before->parameters);
         if (before->entry.enabled == node->entry.enabled) node->enabled = before->enabled;
+    }
+}
+
+void GraphModel::adopt_programs(GraphModel& other) {
+    for (const auto& node : nodes_) {
+        PassNode* before = other.find_node(node->id());
+        if (!before || before->entry.type != node->entry.type) continue;
         for (auto& program : node->programs) {
             for (auto& compiled : before->programs) {
-                if (compiled && compiled->name() == program->name() && compiled->stages() == program->stages()) {
-                    std::swap(program, compiled);
-                }
+                bool same = compiled->name() == program->name() && compiled->stages() == program->stages();
+                if (same) std::swap(program, compiled);
             }
         }
         scan(*node);

@@ -49,8 +49,11 @@ class GraphModel {
     Plan plan(const SceneFacts& facts, glm::ivec2 size) const;
     /// Every file whose change matters: the graph file and the closures of all shaders.
     std::vector<std::filesystem::path> files() const;
-    /// Takes over values that a person set, and compiled programs, from the model that this one replaces.
-    void adopt(GraphModel& old);
+    /// Takes over values that a person set (and switches) from the model that this one replaces.
+    void adopt_values(const GraphModel& old);
+    /// Takes compiled programs from another model where the pass and the shader files are the same; what stood here goes
+    /// there.
+    void adopt_programs(GraphModel& other);
 
   private:
     void apply_file_values(PassNode& node, ErrorList& errors);

@@ -12,34 +12,6 @@
 
 namespace bounce {
 
-const PlanSlot* PlanPass::find(const std::string& slot) const {
-    for (const PlanSlot& s : slots) {
-        if (s.use.slot == slot) return &s;
-    }
-    return nullptr;
-}
-
-uint64_t Plan::total_bytes() const {
-    uint64_t bytes = 0;
-    for (const PlanResource& resource : resources)
-        bytes += resource.total_bytes();
-    return bytes;
-}
-
-const PlanResource* Plan::find_resource(const std::string& name) const {
-    for (const PlanResource& resource : resources) {
-        if (resource.name() == name) return &resource;
-    }
-    return nullptr;
-}
-
-std::vector<std::string> Plan::resource_names() const {
-    std::vector<std::string> names;
-    for (const PlanResource& resource : resources)
-        names.push_back(resource.name());
-    return names;
-}
-
 namespace {
 
 bool is_builtin(const std::string& slot) {
@@ -62,7 +34,7 @@ class Planner {
     }
 
     Plan run() {
-        take_file_resources();
+        resources_ = model_.file().resources;
         for (const auto& node : model_.nodes())
             declare(*node);
         check_sources();
@@ -75,17 +47,13 @@ class Planner {
             resolve_repeat(pass);
         errors_.throw_if_any("graph '" + model_.file().name + "'");
         fill(order);
-        place_barriers();
+        place_barriers(plan_);
+        check_plan(model_, facts_, plan_);
         return std::move(plan_);
     }
 
   private:
     // --- declaring -------------------------------------------------------------------------------------------------
-    void take_file_resources() {
-        for (const ResourceDeclaration& resource : model_.file().resources)
-            resources_.push_back(resource);
-    }
-
     ResourceDeclaration* find(const std::string& name) {
         for (ResourceDeclaration& resource : resources_) {
             if (resource.name == name) return &resource;
@@ -337,24 +305,9 @@ class Planner {
     }
 
     // --- sizes -----------------------------------------------------------------------------------------------------
-    /// What a scene may hold, for `needs`.
     std::optional<double> fact(const std::string& name) const {
-        const std::pair<const char*, double> facts[] = {
-            {"lights", double(facts_.lights())},
-            {"point_lights", double(facts_.point_lights)},
-            {"spot_lights", double(facts_.spot_lights)},
-            {"directional_lights", double(facts_.directional_lights)},
-            {"emissive_materials", double(facts_.emissive_materials)},
-            {"glossy_materials", double(facts_.glossy_materials)},
-            {"alpha_tested_materials", double(facts_.alpha_tested_materials)},
-            {"dynamic_instances", double(facts_.dynamic_instances)},
-            {"animated_lights", facts_.animated_lights ? 1.0 : 0.0},
-            {"environment", facts_.environment ? 1.0 : 0.0},
-        };
-        for (const auto& [known, value] : facts) {
-            if (name == known) return value;
-        }
-        return model_.number(name);
+        auto found = scene_fact(facts_, name);
+        return found ? found : model_.number(name);
     }
 
     std::optional<double> number(const std::string& name) {
@@ -369,12 +322,7 @@ class Planner {
         std::string resource = name.substr(0, last), side = name.substr(last + 1);
         if (!find(resource)) return std::nullopt;
         const PlanResource& sized = size_of(resource);
-        if (side == "width") return sized.texture.size.x;
-        if (side == "height") return sized.texture.size.y;
-        if (side == "depth") return sized.texture.size.z;
-        if (side == "mips") return sized.texture.mips;
-        if (side == "count") return double(sized.count);
-        return std::nullopt;
+        return side_of(sized, side);
     }
 
     const PlanResource& size_of(const std::string& name) {
@@ -454,9 +402,12 @@ class Planner {
             pass.repeat_from = declared.repeat_from;
             pass.repeat_to = declared.repeat_to;
             for (size_t i = 0; i < declared.uses.size(); ++i) {
-                PlanSlot slot{declared.uses[i], -1, is_builtin(declared.uses[i].slot), glm::vec4(0),
-                              declared.targets[i]};
-                if (const ResourceDeclaration* known = find(slot.bind.resource)) slot.neutral = known->neutral;
+                PlanSlot slot{declared.uses[i],    -1,        is_builtin(declared.uses[i].slot), glm::vec4(0),
+                              declared.targets[i], plan_.size};
+                if (const ResourceDeclaration* known = find(slot.bind.resource)) {
+                    slot.neutral = known->neutral;
+                    slot.neutral_size = glm::ivec2(sized_[known->name].texture.size);
+                }
                 auto found = index.find(slot.bind.resource);
                 if (!slot.builtin && found != index.end()) {
                     slot.resource = found->second;
@@ -475,48 +426,6 @@ class Planner {
                 pass.slots.push_back(std::move(slot));
             }
             plan_.passes.push_back(std::move(pass));
-        }
-    }
-
-    static GLbitfield barrier_for(Usage usage) {
-        switch (usage) {
-        case Usage::sampled:
-            return GL_TEXTURE_FETCH_BARRIER_BIT;
-        case Usage::image:
-            return GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
-        case Usage::storage:
-            return GL_SHADER_STORAGE_BARRIER_BIT;
-        case Usage::colour:
-        case Usage::depth:
-            return GL_FRAMEBUFFER_BARRIER_BIT;
-        case Usage::indirect:
-            return GL_COMMAND_BARRIER_BIT;
-        }
-        return 0;
-    }
-
-    /// Shader stores (image, storage) are incoherent: whoever uses the resource next needs a barrier for its own way of
-    /// access. Framebuffer writes and clears are ordered by OpenGL itself.
-    void place_barriers() {
-        std::map<int, GLbitfield> pending; // resource → ways of access that still await a barrier
-        const GLbitfield all = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                               GL_SHADER_STORAGE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT | GL_COMMAND_BARRIER_BIT;
-        for (PlanPass& pass : plan_.passes) {
-            for (const PlanSlot& slot : pass.slots) {
-                if (slot.resource < 0) continue;
-                pass.barriers |= pending[slot.resource] & barrier_for(slot.use.usage);
-            }
-            for (auto& [resource, bits] : pending)
-                bits &= ~pass.barriers;
-            for (const PlanSlot& slot : pass.slots) {
-                bool incoherent =
-                    slot.use.writes && (slot.use.usage == Usage::image || slot.use.usage == Usage::storage);
-                if (slot.resource < 0 || !incoherent) continue;
-                pending[slot.resource] = all;
-                for (const PlanSlot& other : pass.slots) {
-                    if (other.resource == slot.resource) pass.step_barriers |= barrier_for(other.use.usage);
-                }
-            }
         }
     }
 

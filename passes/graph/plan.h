@@ -28,7 +28,8 @@ struct PlanSlot {
     int resource = -1;    ///< index into Plan::resources; −1: the neutral value, or one of the scene's own resources
     bool builtin = false; ///< scene.… or material.…: bound by the graph itself
     glm::vec4 neutral{0};
-    BindEntry bind; ///< mip and layer expressions, previous
+    BindEntry bind;             ///< mip and layer expressions, previous
+    glm::ivec2 neutral_size{1}; ///< of what the neutral value stands for
 };
 
 struct PlanPass {
@@ -60,7 +61,17 @@ struct Plan {
 /// "GL_TEXTURE_FETCH_BARRIER_BIT|…" without the affixes: "texture_fetch|shader_image_access".
 std::string barrier_text(GLbitfield bits);
 
+/// "width", "height", "depth", "mips" or "count" of a resource.
+std::optional<double> side_of(const PlanResource& resource, const std::string& side);
+/// A count of what the scene holds, by the name that `needs` has for it ("emissive_materials").
+std::optional<double> scene_fact(const SceneFacts& facts, const std::string& name);
+/// Fills in the barriers of passes and of their steps, from what each reads and writes.
+void place_barriers(Plan& plan);
+
 class GraphModel;
+/// What would otherwise only fail when a frame runs: dispatch sizes, bound mips and layers, samplers and images of
+/// another kind than their resource. Throws Error with all of it.
+void check_plan(const GraphModel& model, const SceneFacts& facts, const Plan& plan);
 /// Passes in order, who reads and writes what, sizes in bytes, barriers, declined passes with reasons.
 std::string plan_text(const GraphModel& model, const Plan& plan);
 /// The same as a Graphviz digraph.

@@ -46,6 +46,11 @@ void ScriptPass::execute(PassContext& context) {
             // Prefer the slot that is written: it may be bound to another mip than the one that is read.
             if (over && named && texture && slot.use.writes && !over->use.writes) over = &slot;
         }
+        auto side = [&](const char* name) { return context.number(dispatch.resource + "." + name); };
+        if (!over && side("width")) { // a texture that is no slot of this pass
+            context.dispatch("main", {int(*side("width")), int(*side("height")), int(*side("depth"))});
+            return;
+        }
         if (!over)
             throw Error(fmt::format("pass '{}' has nothing to dispatch over: give \"dispatch\": [x, y, z]", entry_.id));
         threads = context.size(over->use.slot);

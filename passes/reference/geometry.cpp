@@ -138,26 +138,43 @@ glm::vec3 TraceGeometry::mean_emission(const Geometry& geometry, uint32_t triang
     return sum / float(k_steps * k_steps);
 }
 
-Surface TraceGeometry::surface(const Hit& hit, const glm::vec3& ray_direction) const {
+void TraceGeometry::prefetch_indices(const Hit& hit) const {
+    if (hit.valid()) __builtin_prefetch(&geometries_[hit.geometry].indices[size_t(hit.triangle) * 3]);
+}
+
+void TraceGeometry::prefetch_corners(const Hit& hit) const {
+    const Corners t = corners(geometries_[hit.geometry], hit.triangle);
+    __builtin_prefetch(t.a);
+    __builtin_prefetch(t.b);
+    __builtin_prefetch(t.c);
+}
+
+TraceGeometry::SurfacePlace TraceGeometry::find_surface(const Hit& hit) const {
     const Geometry& geometry = geometries_[hit.geometry];
     const TraceMaterial& material = materials_[size_t(geometry.material)];
-    const Corners t = corners(geometry, hit.triangle);
-    const float u = hit.u, v = hit.v;
-
-    // All texels are asked for first, so that their ways from memory overlap.
-    const glm::vec2 uv[2] = {mix_corners(uv_of(*t.a, 0), uv_of(*t.b, 0), uv_of(*t.c, 0), u, v),
-                             mix_corners(uv_of(*t.a, 1), uv_of(*t.b, 1), uv_of(*t.c, 1), u, v)};
-    auto find = [&uv](const TextureUse& use, const TextureTaps* shared) {
-        TextureTaps taps{};
-        if (!use.texture) return taps;
+    SurfacePlace place;
+    place.material = &material;
+    place.corners = corners(geometry, hit.triangle);
+    const Corners& t = place.corners;
+    const glm::vec2 uv[2] = {mix_corners(uv_of(*t.a, 0), uv_of(*t.b, 0), uv_of(*t.c, 0), hit.u, hit.v),
+                             mix_corners(uv_of(*t.a, 1), uv_of(*t.b, 1), uv_of(*t.c, 1), hit.u, hit.v)};
+    auto find = [&uv](const TextureUse& use, const TextureTaps* shared, TextureTaps& taps) {
+        if (!use.texture) return;
         taps = shared ? *shared : use.texture->taps(use.transform.apply(uv[use.transform.uv_set]));
         use.texture->prefetch(taps);
-        return taps;
     };
-    const TextureTaps colour_taps = find(material.base_colour_texture, nullptr);
-    const TextureTaps metallic_roughness_taps =
-        find(material.metallic_roughness_texture, material.shared_metallic_roughness ? &colour_taps : nullptr);
-    const TextureTaps normal_taps = find(material.normal_texture, material.shared_normal ? &colour_taps : nullptr);
+    find(material.base_colour_texture, nullptr, place.colour);
+    find(material.metallic_roughness_texture, material.shared_metallic_roughness ? &place.colour : nullptr,
+         place.metallic_roughness);
+    find(material.normal_texture, material.shared_normal ? &place.colour : nullptr, place.normal);
+    return place;
+}
+
+Surface TraceGeometry::read_surface(const SurfacePlace& place, const Hit& hit, const glm::vec3& ray_direction) const {
+    const Geometry& geometry = geometries_[hit.geometry];
+    const TraceMaterial& material = *place.material;
+    const Corners& t = place.corners;
+    const float u = hit.u, v = hit.v;
 
     Surface s;
     const glm::vec3 edge1 = t.b->position - t.a->position, edge2 = t.c->position - t.a->position;
@@ -169,7 +186,7 @@ Surface TraceGeometry::surface(const Hit& hit, const glm::vec3& ray_direction) c
 
     glm::vec3 normal = unit_or(mix_corners(t.a->normal, t.b->normal, t.c->normal, u, v), s.geometric);
     if (const ReferenceTexture* texture = material.normal_texture.texture) {
-        const glm::vec4 texel = texture->sample(normal_taps);
+        const glm::vec4 texel = texture->sample(place.normal);
         const float x = (2 * texel.x - 1) * material.normal_scale, y = (2 * texel.y - 1) * material.normal_scale;
         const glm::vec3 tangent = unit_or(
             mix_corners(glm::vec3(t.a->tangent), glm::vec3(t.b->tangent), glm::vec3(t.c->tangent), u, v), glm::vec3(0));
@@ -182,7 +199,7 @@ Surface TraceGeometry::surface(const Hit& hit, const glm::vec3& ray_direction) c
 
     s.base_colour = material.base_colour;
     if (const ReferenceTexture* texture = material.base_colour_texture.texture) {
-        s.base_colour *= glm::vec3(texture->sample(colour_taps));
+        s.base_colour *= glm::vec3(texture->sample(place.colour));
     }
     if (geometry.vertex_colours) {
         s.base_colour *= glm::vec3(mix_corners(colour_of(*t.a), colour_of(*t.b), colour_of(*t.c), u, v));
@@ -190,13 +207,15 @@ Surface TraceGeometry::surface(const Hit& hit, const glm::vec3& ray_direction) c
     s.metallic = material.metallic;
     s.roughness = material.roughness;
     if (const ReferenceTexture* texture = material.metallic_roughness_texture.texture) {
-        const glm::vec4 texel = texture->sample(metallic_roughness_taps);
+        const glm::vec4 texel = texture->sample(place.metallic_roughness);
         s.metallic *= texel.b;
         s.roughness *= texel.g;
     }
     s.emission = material.emission;
     if (const auto& use = material.emission_texture; use.texture && material.emissive) {
-        s.emission *= glm::vec3(use.texture->sample(use.transform.apply(uv[use.transform.uv_set])));
+        const int set = use.transform.uv_set;
+        const glm::vec2 uv = mix_corners(uv_of(*t.a, set), uv_of(*t.b, set), uv_of(*t.c, set), u, v);
+        s.emission *= glm::vec3(use.texture->sample(use.transform.apply(uv)));
     }
     return s;
 }

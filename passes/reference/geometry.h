@@ -56,6 +56,14 @@ class TraceGeometry {
     /// Whether anything lies on origin + t·direction for 0 < t < length (in units of the direction's length).
     bool occluded(const glm::vec3& origin, const glm::vec3& direction, float length) const;
     Surface surface(const Hit& hit, const glm::vec3& ray_direction) const;
+    /// The same in four steps, each of which asks for the memory that the next one reads: hits are scattered over the
+    /// scene, and a caller with several paths at hand takes each step for all of them, so that their ways from memory
+    /// overlap.
+    struct SurfacePlace;
+    void prefetch_indices(const Hit& hit) const;
+    void prefetch_corners(const Hit& hit) const;
+    SurfacePlace find_surface(const Hit& hit) const;
+    Surface read_surface(const SurfacePlace& place, const Hit& hit, const glm::vec3& ray_direction) const;
 
     struct Geometry {
         /// World space. A vertex is as long as a cache line and lies on one.
@@ -115,6 +123,16 @@ class TraceGeometry {
     RTCDevice device_ = nullptr;
     RTCScene scene_ = nullptr;
 };
+
+struct TraceGeometry::SurfacePlace {
+    const TraceMaterial* material;
+    Corners corners;
+    TextureTaps colour, metallic_roughness, normal;
+};
+
+inline Surface TraceGeometry::surface(const Hit& hit, const glm::vec3& ray_direction) const {
+    return read_surface(find_surface(hit), hit, ray_direction);
+}
 
 /// The triangle's edge vectors crossed: twice its area long. For sampling emitters.
 glm::vec3 triangle_cross(const TraceGeometry::Geometry& geometry, uint32_t triangle);

@@ -67,6 +67,10 @@ TraceScene::TraceScene(const Shot& shot, const ShotState& state, const Reference
       diffuse_only(s.diffuse_only || shot.diffuse_only),
       occlusion_distance(s.occlusion_distance * geometry.bounds().diagonal()) {}
 
+bool TraceScene::anything_to_meet() const {
+    return environment.present() || !emitters.empty() || lights.any_soft();
+}
+
 Hit Integrator::trace(const glm::vec3& origin, const glm::vec3& direction) {
     ++rays_;
     if (record_) record_->push_back({origin, k_infinity, direction, false});
@@ -162,78 +166,120 @@ void Integrator::meet_lights(const glm::vec3& origin, const glm::vec3& direction
     add(k_emitted, emission * mis_weight(own_density, scene_.emitters.density(scene_.geometry, hit, direction)));
 }
 
-/// The radiance that the surface at `hit` scatters back along the ray, in all allowed orders.
-glm::vec3 Integrator::follow(Hit hit, glm::vec3 direction, PixelSampler& sampler, uint32_t block) {
-    glm::vec3 radiance(0), throughput(1);
+/// A path beyond the visible surface: what the surface at `hit` scatters back along `direction` is being summed.
+struct Integrator::Path {
+    PixelSampler sampler;
+    uint32_t block; ///< 1 for the diffuse path of a sample, 2 for the glossy one: they draw from different dimensions
+    Hit hit;
+    glm::vec3 direction;
+    glm::vec3 radiance{0}, throughput{1};
+    int depth = 1;
+    PixelSample* out;
+    glm::vec3 weight; ///< of the radiance in out.indirect_diffuse or out.indirect_specular
+    bool done = false;
+};
+
+Integrator::Integrator(const TraceScene& scene) : scene_(scene) {}
+Integrator::~Integrator() = default;
+
+/// Scatters the path at its present surface and traces it on. Returns false at its end.
+bool Integrator::extend(Path& path, const Surface& surface) {
     const int bounces = scene_.settings.bounces;
-    const bool anything_to_meet = scene_.environment.present() || !scene_.emitters.empty() || scene_.lights.any_soft();
-    for (int depth = 1;; ++depth) {
-        if (bounces != k_unlimited_bounces && depth > bounces) break;
-        sampler.start_block(block + uint32_t(2 * depth));
-        const glm::vec2 u = sampler.next_pair();
-        const float choice = sampler.next(), survival = sampler.next();
+    path.sampler.start_block(path.block + uint32_t(2 * path.depth));
+    const glm::vec2 u = path.sampler.next_pair();
+    const float choice = path.sampler.next(), survival = path.sampler.next();
 
-        const Surface surface = scene_.geometry.surface(hit, direction);
-        const Lobes lobes(surface, -direction, scene_.diffuse_only);
-        float gloss_share = 0;
-        if (lobes.glossy) {
-            // Schlick at the viewing angle is near enough for a choice between lobes.
-            const float m = 1 - std::min(lobes.nv, 1.0f), m2 = m * m;
-            const float specular = luminance(lobes.f0 + (1.0f - lobes.f0) * (m2 * m2 * m));
-            const float diffuse = luminance(lobes.diffuse) * k_pi;
-            gloss_share = diffuse > 0 ? std::clamp(specular / (specular + diffuse), 0.1f, 0.9f) : 1.0f;
-        }
-        auto evaluate = [&](const glm::vec3& l, float nl, float& density) {
-            const Lobes::Gloss gloss = lobes.gloss(l, nl);
-            density = gloss_share * gloss.density + (1 - gloss_share) * nl / k_pi;
-            return lobes.diffuse + gloss.value;
-        };
-        sample_lights(surface, sampler, k_all_lights,
-                      [&](Kind, const glm::vec3& l, const glm::vec3& irradiance, float density) {
-                          const float nl = glm::dot(lobes.n, l);
-                          float own;
-                          const glm::vec3 f = evaluate(l, nl, own);
-                          radiance += throughput * f * irradiance * (nl * (density > 0 ? mis_weight(density, own) : 1));
-                      });
-
-        const bool last = bounces != k_unlimited_bounces && depth == bounces;
-        if (last && !anything_to_meet) break;
-        const glm::vec3 l = choice < gloss_share ? lobes.draw_gloss(u) : lobes.draw_diffuse(u);
-        const float nl = glm::dot(lobes.n, l);
-        if (nl <= 0 || !lobes.above(l)) break;
-        float density;
-        const glm::vec3 f = evaluate(l, nl, density);
-        if (!(density > 0)) break;
-        throughput *= f * (nl / density);
-        if (depth >= scene_.settings.roulette_depth) {
-            const float most = std::max(throughput.r, std::max(throughput.g, throughput.b));
-            const float probability = std::min(0.95f, most);
-            if (!(survival < probability)) break;
-            throughput /= probability;
-        }
-        const glm::vec3 origin = surface.origin();
-        hit = trace(origin, l);
-        meet_lights(origin, l, hit, density, k_all_lights,
-                    [&](Kind, const glm::vec3& met) { radiance += throughput * met; });
-        if (!hit.valid()) break;
-        direction = l;
+    const Lobes lobes(surface, -path.direction, scene_.diffuse_only);
+    float gloss_share = 0;
+    if (lobes.glossy) {
+        // Schlick at the viewing angle is near enough for a choice between lobes.
+        const float m = 1 - std::min(lobes.nv, 1.0f), m2 = m * m;
+        const float specular = luminance(lobes.f0 + (1.0f - lobes.f0) * (m2 * m2 * m));
+        const float diffuse = luminance(lobes.diffuse) * k_pi;
+        gloss_share = diffuse > 0 ? std::clamp(specular / (specular + diffuse), 0.1f, 0.9f) : 1.0f;
     }
-    return radiance;
+    auto evaluate = [&](const glm::vec3& l, float nl, float& density) {
+        const Lobes::Gloss gloss = lobes.gloss(l, nl);
+        density = gloss_share * gloss.density + (1 - gloss_share) * nl / k_pi;
+        return lobes.diffuse + gloss.value;
+    };
+    sample_lights(
+        surface, path.sampler, k_all_lights, [&](Kind, const glm::vec3& l, const glm::vec3& irradiance, float density) {
+            const float nl = glm::dot(lobes.n, l);
+            float own;
+            const glm::vec3 f = evaluate(l, nl, own);
+            path.radiance += path.throughput * f * irradiance * (nl * (density > 0 ? mis_weight(density, own) : 1));
+        });
+
+    const bool last = bounces != k_unlimited_bounces && path.depth == bounces;
+    if (last && !scene_.anything_to_meet()) return false;
+    const glm::vec3 l = choice < gloss_share ? lobes.draw_gloss(u) : lobes.draw_diffuse(u);
+    const float nl = glm::dot(lobes.n, l);
+    if (nl <= 0 || !lobes.above(l)) return false;
+    float density;
+    const glm::vec3 f = evaluate(l, nl, density);
+    if (!(density > 0)) return false;
+    path.throughput *= f * (nl / density);
+    if (path.depth >= scene_.settings.roulette_depth) {
+        const float most = std::max(path.throughput.r, std::max(path.throughput.g, path.throughput.b));
+        const float probability = std::min(0.95f, most);
+        if (!(survival < probability)) return false;
+        path.throughput /= probability;
+    }
+    const glm::vec3 origin = surface.origin();
+    path.hit = trace(origin, l);
+    scene_.geometry.prefetch_indices(path.hit);
+    meet_lights(origin, l, path.hit, density, k_all_lights,
+                [&](Kind, const glm::vec3& met) { path.radiance += path.throughput * met; });
+    path.direction = l;
+    ++path.depth;
+    return path.hit.valid() && !last;
 }
 
-PixelSample Integrator::sample(int x, int y, PixelSampler& sampler) {
-    PixelSample out{};
-    auto part = [&out](int index) { return &out[size_t(k_reference_parts[size_t(index)].offset)]; };
-    auto add = [](float* sum, const glm::vec3& value) {
-        for (int c = 0; c < 3; ++c)
-            sum[c] += value[c];
-    };
+/// Follows all paths to their ends, all of them one surface further in each round: each step over all paths fetches
+/// what the next step reads.
+void Integrator::follow(std::vector<Path>& paths) {
+    TraceGeometry::SurfacePlace places[2 * k_most_together];
+    size_t running = paths.size();
+    while (running > 0) {
+        for (const Path& path : paths) {
+            if (!path.done) scene_.geometry.prefetch_corners(path.hit);
+        }
+        for (size_t i = 0; i < paths.size(); ++i) {
+            if (!paths[i].done) places[i] = scene_.geometry.find_surface(paths[i].hit);
+        }
+        for (size_t i = 0; i < paths.size(); ++i) {
+            Path& path = paths[i];
+            if (path.done) continue;
+            if (extend(path, scene_.geometry.read_surface(places[i], path.hit, path.direction))) continue;
+            path.done = true;
+            --running;
+        }
+    }
+}
+
+namespace {
+
+float* part_of(PixelSample& sample, int index) {
+    return &sample[size_t(k_reference_parts[size_t(index)].offset)];
+}
+
+void add(float* sum, const glm::vec3& value) {
+    for (int c = 0; c < 3; ++c)
+        sum[c] += value[c];
+}
+
+} // namespace
+
+/// The camera ray and all that is scattered once; leaves the first rays of the later orders in `paths`.
+void Integrator::begin(int x, int y, PixelSampler& sampler, PixelSample& out, std::vector<Path>& paths) {
+    out.fill(0);
     // First scatterings by kind: out.direct, out.emitted, out.environment, and the same as irradiance.
-    auto add_first = [&](Kind kind, const glm::vec3& radiance) { add(part(kind), radiance); };
-    auto add_irradiance = [&](Kind kind, const glm::vec3& irradiance) { add(part(6 + kind), irradiance); };
-    float* const emission = part(5);
-    float& open = *part(10);
-    float& open_near = *part(11);
+    auto add_first = [&](Kind kind, const glm::vec3& radiance) { add(part_of(out, kind), radiance); };
+    auto add_irradiance = [&](Kind kind, const glm::vec3& irradiance) { add(part_of(out, 6 + kind), irradiance); };
+    float* const emission = part_of(out, 5);
+    float& open = *part_of(out, 10);
+    float& open_near = *part_of(out, 11);
 
     sampler.start_block(0);
     const glm::vec2 jitter = sampler.next_pair();
@@ -243,54 +289,75 @@ PixelSample Integrator::sample(int x, int y, PixelSampler& sampler) {
     if (!first.valid()) {
         if (scene_.environment.present()) add(emission, scene_.environment.radiance(camera_direction));
         open = open_near = 1;
-        return out;
+        return;
     }
     const glm::vec2 u_diffuse = sampler.next_pair(), u_gloss = sampler.next_pair();
     const Surface surface = scene_.geometry.surface(first, camera_direction);
     const Lobes lobes(surface, -camera_direction, scene_.diffuse_only);
     const glm::vec3 origin = surface.origin();
+    const bool later_orders = scene_.settings.bounces != 0;
     add(emission, surface.emission);
-
-    sample_lights(surface, sampler, k_all_lights_at_camera,
-                  [&](Kind kind, const glm::vec3& l, const glm::vec3& irradiance, float density) {
-                      const float nl = glm::dot(lobes.n, l);
-                      const Lobes::Gloss gloss = lobes.gloss(l, nl);
-                      const glm::vec3 e = irradiance * (nl * (density > 0 ? mis_weight(density, nl / k_pi) : 1.0f));
-                      add_irradiance(kind, e);
-                      add_first(kind, lobes.diffuse * e +
-                                          gloss.value * irradiance *
-                                              (nl * (density > 0 ? mis_weight(density, gloss.density) : 1.0f)));
-                  });
 
     // The diffuse path also measures ambient occlusion: its first ray has the density cosθ/π.
     const glm::vec3 l = lobes.draw_diffuse(u_diffuse);
     if (const float nl = glm::dot(lobes.n, l); nl > 0 && lobes.above(l)) {
         const Hit hit = trace(origin, l);
+        if (later_orders) scene_.geometry.prefetch_indices(hit);
         open = hit.valid() ? 0.0f : 1.0f;
         open_near = hit.valid() && hit.distance < scene_.occlusion_distance ? 0.0f : 1.0f;
         meet_lights(origin, l, hit, nl / k_pi, k_all_lights_at_camera, [&](Kind kind, const glm::vec3& met) {
             add_irradiance(kind, k_pi * met);
             add_first(kind, lobes.diffuse * (k_pi * met));
         });
-        if (hit.valid()) {
-            const glm::vec3 later = follow(hit, l, sampler, 1);
-            add(part(9), k_pi * later);
-            add(part(3), lobes.diffuse * (k_pi * later));
+        if (later_orders && hit.valid()) {
+            paths.push_back({.sampler = sampler,
+                             .block = 1,
+                             .hit = hit,
+                             .direction = l,
+                             .out = &out,
+                             .weight = lobes.diffuse * k_pi});
         }
     }
     if (lobes.glossy) {
         const glm::vec3 g = lobes.draw_gloss(u_gloss);
         const float nl = glm::dot(lobes.n, g);
         const Lobes::Gloss gloss = lobes.gloss(g, nl);
-        if (nl > 0 && lobes.above(g) && gloss.density > 0) {
+        if (nl > 0 && lobes.above(g) && gloss.density > 0 && (later_orders || scene_.anything_to_meet())) {
             const glm::vec3 weight = gloss.value * (nl / gloss.density);
             const Hit hit = trace(origin, g);
+            if (later_orders) scene_.geometry.prefetch_indices(hit);
             meet_lights(origin, g, hit, gloss.density, k_all_lights_at_camera,
                         [&](Kind kind, const glm::vec3& met) { add_first(kind, weight * met); });
-            if (hit.valid()) add(part(4), weight * follow(hit, g, sampler, 2));
+            if (later_orders && hit.valid()) {
+                paths.push_back(
+                    {.sampler = sampler, .block = 2, .hit = hit, .direction = g, .out = &out, .weight = weight});
+            }
         }
     }
-    return out;
+    sample_lights(surface, sampler, k_all_lights_at_camera,
+                  [&](Kind kind, const glm::vec3& to_light, const glm::vec3& irradiance, float density) {
+                      const float nl = glm::dot(lobes.n, to_light);
+                      const Lobes::Gloss gloss = lobes.gloss(to_light, nl);
+                      const float diffuse_weight = density > 0 ? mis_weight(density, nl / k_pi) : 1.0f;
+                      const float gloss_weight = density > 0 ? mis_weight(density, gloss.density) : 1.0f;
+                      const glm::vec3 e = irradiance * (nl * diffuse_weight);
+                      add_irradiance(kind, e);
+                      add_first(kind, lobes.diffuse * e + gloss.value * irradiance * (nl * gloss_weight));
+                  });
+}
+
+void Integrator::sample(int x, int y, std::span<PixelSampler> samplers, std::span<PixelSample> out) {
+    for (size_t first = 0; first < samplers.size(); first += k_most_together) {
+        const size_t end = std::min(samplers.size(), first + k_most_together);
+        paths_.clear();
+        for (size_t i = first; i < end; ++i)
+            begin(x, y, samplers[i], out[i], paths_);
+        follow(paths_);
+        for (const Path& path : paths_) {
+            add(part_of(*path.out, path.block == 1 ? 3 : 4), path.weight * path.radiance);
+            if (path.block == 1) add(part_of(*path.out, 9), k_pi * path.radiance);
+        }
+    }
 }
 
 PixelSurface Integrator::centre(int x, int y) {

@@ -11,6 +11,8 @@
 #include "reference/settings.h"
 
 #include <array>
+#include <span>
+#include <vector>
 
 namespace bounce {
 
@@ -29,6 +31,9 @@ struct TraceScene {
     ReferenceSettings settings;
     bool diffuse_only;
     float occlusion_distance; ///< metres
+
+    /// Whether a ray drawn from a lobe can meet light by itself.
+    bool anything_to_meet() const;
 };
 
 /// The channels of k_reference_parts, in their order.
@@ -43,9 +48,13 @@ struct PixelSurface {
 
 class Integrator {
   public:
-    explicit Integrator(const TraceScene& scene) : scene_(scene) {}
+    explicit Integrator(const TraceScene& scene);
+    ~Integrator();
 
-    PixelSample sample(int x, int y, PixelSampler& sampler);
+    /// One sample of the pixel for each sampler. Samples do not depend on which others are taken with them; taking some
+    /// together is faster.
+    static constexpr int k_most_together = 8;
+    void sample(int x, int y, std::span<PixelSampler> samplers, std::span<PixelSample> out);
     PixelSurface centre(int x, int y);
 
     uint64_t rays() const { return rays_; }
@@ -54,7 +63,7 @@ class Integrator {
 
   private:
     struct Lobes;
-    struct Scattered;
+    struct Path;
     Hit trace(const glm::vec3& origin, const glm::vec3& direction);
     bool blocked(const glm::vec3& origin, const glm::vec3& to_end, float length);
     template <class Add>
@@ -62,11 +71,14 @@ class Integrator {
     template <class Add>
     void meet_lights(const glm::vec3& origin, const glm::vec3& direction, const Hit& hit, float own_density,
                      size_t most_lights, Add&& add);
-    glm::vec3 follow(Hit hit, glm::vec3 direction, PixelSampler& sampler, uint32_t block);
+    void begin(int x, int y, PixelSampler& sampler, PixelSample& out, std::vector<Path>& paths);
+    void follow(std::vector<Path>& paths);
+    bool extend(Path& path, const Surface& surface);
     float light_probability(size_t i, const glm::vec3& x) const;
 
     const TraceScene& scene_;
     uint64_t rays_ = 0;
+    std::vector<Path> paths_;
     std::vector<TracedRay>* record_ = nullptr;
 };
 

@@ -17,7 +17,7 @@ namespace bounce {
 namespace {
 constexpr int k_tile = 16;
 /// Samples a pixel takes between two looks at `cancelled_`.
-constexpr int k_pass = 4;
+constexpr int k_pass = Integrator::k_most_together;
 } // namespace
 
 struct ReferenceRender::Centres {
@@ -58,24 +58,35 @@ uint32_t ReferenceRender::pixel_seed(int x, int y, int half) const {
     return hash_combine(hash_combine(hash_combine(settings_.seed, uint32_t(half)), uint32_t(x)), uint32_t(y));
 }
 
-/// Sample i belongs to half i mod 2, each of which is a sequence of its own.
+/// Samples `from` … `to` − 1 (at most k_pass of them) of the tile's pixels: take(first channel of the pixel, i,
+/// sample). Sample i belongs to half i mod 2, each of which is a sequence of its own.
+template <class Take>
+void ReferenceRender::trace_tile(const Tile& tile, int from, int to, Integrator& integrator, Take&& take) const {
+    std::vector<PixelSampler> samplers;
+    PixelSample samples[k_pass];
+    for (int y = tile.y0; y < tile.y1; ++y) {
+        for (int x = tile.x0; x < tile.x1; ++x) {
+            const uint32_t seeds[2] = {pixel_seed(x, y, 0), pixel_seed(x, y, 1)};
+            const size_t first = (size_t(y) * size_t(width_) + size_t(x)) * k_reference_channels;
+            samplers.clear();
+            for (int i = from; i < to; ++i)
+                samplers.emplace_back(seeds[i & 1], uint32_t(i >> 1), settings_.stratified);
+            integrator.sample(x, y, samplers, {samples, samplers.size()});
+            for (int i = from; i < to; ++i)
+                take(first, i, samples[i - from]);
+        }
+    }
+}
+
 void ReferenceRender::render_tile(Tile& tile, int samples) {
     Integrator integrator(*scene_);
     while (tile.samples < samples && !cancelled_) {
         const int end = std::min(samples, tile.samples + k_pass);
-        for (int y = tile.y0; y < tile.y1; ++y) {
-            for (int x = tile.x0; x < tile.x1; ++x) {
-                const uint32_t seeds[2] = {pixel_seed(x, y, 0), pixel_seed(x, y, 1)};
-                const size_t first = (size_t(y) * size_t(width_) + size_t(x)) * k_reference_channels;
-                for (int i = tile.samples; i < end; ++i) {
-                    PixelSampler sampler(seeds[i & 1], uint32_t(i >> 1), settings_.stratified);
-                    const PixelSample sample = integrator.sample(x, y, sampler);
-                    float* sums = &sums_[i & 1][first];
-                    for (int c = 0; c < k_reference_channels; ++c)
-                        sums[c] += sample[size_t(c)];
-                }
-            }
-        }
+        trace_tile(tile, tile.samples, end, integrator, [this](size_t first, int i, const PixelSample& sample) {
+            float* sums = &sums_[i & 1][first];
+            for (int c = 0; c < k_reference_channels; ++c)
+                sums[c] += sample[size_t(c)];
+        });
         done_ += uint64_t(end - tile.samples) * uint64_t(tile.x1 - tile.x0) * uint64_t(tile.y1 - tile.y0);
         tile.samples = end;
     }
@@ -269,16 +280,13 @@ void ReferenceRender::add_checkpoint() {
     history_.push_back(std::move(checkpoint));
 }
 
-std::vector<TracedRay> ReferenceRender::rays_of_sample(int sample) const {
+std::vector<TracedRay> ReferenceRender::rays_of_samples(int from, int to) const {
     std::vector<TracedRay> rays;
     Integrator integrator(*scene_);
     integrator.record_rays(&rays);
     for (const Tile& tile : tiles_) {
-        for (int y = tile.y0; y < tile.y1; ++y) {
-            for (int x = tile.x0; x < tile.x1; ++x) {
-                PixelSampler sampler(pixel_seed(x, y, sample & 1), uint32_t(sample >> 1), settings_.stratified);
-                integrator.sample(x, y, sampler);
-            }
+        for (int i = from; i < to; i += k_pass) {
+            trace_tile(tile, i, std::min(to, i + k_pass), integrator, [](size_t, int, const PixelSample&) {});
         }
     }
     return rays;

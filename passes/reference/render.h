@@ -19,6 +19,7 @@ namespace bounce {
 
 struct TraceScene;
 struct TracedRay;
+class Integrator;
 
 /// The noise of a part, from two independent half-images A and B: √ mean ((A − B)/2)² is the RMS standard error of
 /// their mean.
@@ -90,8 +91,9 @@ class ReferenceRender {
         std::vector<Checkpoint> history;
     };
 
-    /// All rays of sample `sample` of every pixel, pixel by pixel, for measurements.
-    std::vector<TracedRay> rays_of_sample(int sample) const;
+    /// All rays of the samples `from` … `to` − 1 of every pixel, in the order in which one thread traces them. For
+    /// measurements.
+    std::vector<TracedRay> rays_of_samples(int from, int to) const;
     const TraceScene& scene() const { return *scene_; }
 
   private:
@@ -100,6 +102,8 @@ class ReferenceRender {
         int samples = 0;
     };
     void render_tile(Tile& tile, int samples);
+    template <class Take>
+    void trace_tile(const Tile& tile, int from, int to, Integrator& integrator, Take&& take) const;
     void make_centres() const;
     Image average(const std::string& name, int halves) const;
     uint32_t pixel_seed(int x, int y, int half) const;

@@ -3,7 +3,6 @@
 #include "scene/keyframes.h"
 #include "scene/scene.h"
 
-#include <glm/gtc/matrix_transform.hpp>
 
 namespace bounce {
 

@@ -86,9 +86,9 @@ class AnimationReader {
         if (keys_ > k_max_keys) fail(fmt::format("{}: the animations unfold to more than {} keys", at, k_max_keys));
 
         for (const glm::vec4& time : read_vectors(source_, sampler.input)) {
-            bool increasing = channel.times.empty() || time.x > channel.times.back();
+            bool increasing = channel.times.empty() || time.x >= channel.times.back();
             if (!std::isfinite(time.x) || time.x < 0 || !increasing)
-                fail(fmt::format("{}: key time {} ({}) must be finite, not negative and later than the one before", at,
+                fail(fmt::format("{}: key time {} ({}) must be finite, not negative and not before the last one", at,
                                  channel.times.size(), time.x));
             channel.times.push_back(time.x);
         }

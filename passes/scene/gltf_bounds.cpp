@@ -33,6 +33,8 @@ class BoundsCheck {
             size_t buffer = whole(views_[i], "buffer");
             size_t offset = whole(views_[i], "byteOffset"), length = whole(views_[i], "byteLength");
             size_t size = buffer_sizes[buffer];
+            if (size_t stride = whole(views_[i], "byteStride"); stride % 4 != 0 || stride > 252)
+                errors_.add(fmt::format("bufferViews[{}].byteStride {} is no multiple of 4 up to 252", i, stride));
             if (offset > size || length > size - offset)
                 errors_.add(fmt::format("bufferViews[{}] reaches outside its buffer: {} bytes from byte {}, but "
                                         "buffers[{}] has {}",

@@ -3,7 +3,6 @@
 // one may rely on: indices point at something, views lie in their buffers, accessors in their views, the node graph is
 // a forest.
 
-#include <array>
 #include <filesystem>
 #include <string>
 #include <tiny_gltf.h>

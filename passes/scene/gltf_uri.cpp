@@ -31,6 +31,11 @@ static std::string percent_decode(std::string_view text) {
     return out;
 }
 
+/// For messages: a URI may be megabytes long.
+static std::string shortened(const std::string& text) {
+    return text.size() > 200 ? text.substr(0, 200) + "…" : text;
+}
+
 /// "http://…" has one; "textures/a.png" has none. (A one-letter scheme would be a Windows drive; those are refused
 /// too.)
 static bool has_scheme(const std::string& uri) {
@@ -92,7 +97,8 @@ static std::vector<unsigned char> decode_data_uri(const std::string& uri, const 
 }
 
 fs::path uri_path(const std::string& uri, const fs::path& base, const std::string& what) {
-    if (has_scheme(uri)) throw Error(what + ": '" + uri + "': only relative paths and data: URIs can be read");
+    if (has_scheme(uri))
+        throw Error(what + ": '" + shortened(uri) + "': only relative paths and data: URIs can be read");
     std::error_code ignored;
     fs::path decoded = base / percent_decode(uri);
     // Some exporters write file names unescaped.
@@ -103,7 +109,8 @@ std::vector<unsigned char> read_uri(const std::string& uri, const fs::path& base
     if (is_data_uri(uri)) return decode_data_uri(uri, what);
     fs::path path = uri_path(uri, base, what);
     std::error_code ignored;
-    if (!fs::is_regular_file(path, ignored)) throw Error(what + ": there is no file '" + path.string() + "'");
+    if (!fs::is_regular_file(path, ignored))
+        throw Error(what + ": there is no file '" + shortened(path.string()) + "'");
     std::string bytes = read_file(path);
     return {bytes.begin(), bytes.end()};
 }

@@ -18,9 +18,9 @@ struct Vertex {
     glm::vec3 position{0};
     float u0 = 0; ///< TEXCOORD_0.x
     glm::vec3 normal{0, 1, 0};
-    float v0 = 0;                 ///< TEXCOORD_0.y
-    glm::vec4 tangent{1, 0, 0, 1}; ///< w = handedness of the bitangent
-    float u1 = 0, v1 = 0;         ///< TEXCOORD_1
+    float v0 = 0;                     ///< TEXCOORD_0.y
+    glm::vec4 tangent{1, 0, 0, 1};    ///< w = handedness of the bitangent
+    float u1 = 0, v1 = 0;             ///< TEXCOORD_1
     uint32_t colour_rg = 0xffffffffu; ///< COLOR_0 as unorm16 pairs (packUnorm2x16), linear; white where absent
     uint32_t colour_ba = 0xffffffffu;
 };
@@ -38,7 +38,8 @@ struct Texture {
     bool srgb = false;
 };
 
-/// A use of a texture by a material slot. uv' = offset + R(rotation)·(scale·uv), as KHR_texture_transform says.
+/// A use of a texture by a material slot: uv' = offset + R·(scale·uv) with R = [cos r, sin r; −sin r, cos r], a turn
+/// counter-clockwise as seen with v pointing down (KHR_texture_transform). `slot_uv` in shading_frame.h does it.
 struct TextureSlot {
     int texture = -1; ///< index into Scene::textures; -1 = none
     int uv_set = 0;   ///< 0 or 1
@@ -51,16 +52,16 @@ struct Material {
     std::string name;
     glm::vec4 base_colour{1};
     float metallic = 1;
-    float roughness = 1;      ///< perceptual; α = roughness²
-    glm::vec3 emission{0};    ///< radiance, W/(sr·m²): emissiveFactor · emissiveStrength
+    float roughness = 1;   ///< perceptual; α = roughness²
+    glm::vec3 emission{0}; ///< radiance, W/(sr·m²): emissiveFactor · emissiveStrength
     float normal_scale = 1;
-    bool alpha_mask = false;  ///< MASK, or BLEND read as MASK at 0.5
+    bool alpha_mask = false; ///< MASK, or BLEND read as MASK at 0.5
     float alpha_cutoff = 0.5f;
-    bool double_sided = false; ///< only feeds the optional back-face cull of the camera pass
-    TextureSlot base_colour_texture;       ///< sRGB, a = alpha
+    bool double_sided = false;              ///< only feeds the optional back-face cull of the camera pass
+    TextureSlot base_colour_texture;        ///< sRGB, a = alpha
     TextureSlot metallic_roughness_texture; ///< g = roughness, b = metallic
     TextureSlot normal_texture;
-    TextureSlot emission_texture;          ///< sRGB
+    TextureSlot emission_texture; ///< sRGB
 
     bool is_emissive() const { return emission.r > 0 || emission.g > 0 || emission.b > 0; }
 };
@@ -84,13 +85,13 @@ enum class LightType : uint32_t { point = 0, spot = 1, directional = 2 };
 struct Light {
     std::string name;
     LightType type = LightType::point;
-    glm::vec3 position{0};          ///< world (as evaluated); unused for directional
-    glm::vec3 direction{0, -1, 0};  ///< unit, the way light travels
-    glm::vec3 intensity{1};         ///< point, spot: W/sr; directional: W/m² at normal incidence
-    float inner_cone = 0;           ///< half-angle, radians
-    float outer_cone = 0.7853982f;  ///< half-angle, radians
-    float radius = 0;               ///< metres, point and spot; only the reference and soft shadows use it
-    float angular_radius = 0;       ///< radians, directional
+    glm::vec3 position{0};         ///< world (as evaluated); unused for directional
+    glm::vec3 direction{0, -1, 0}; ///< unit, the way light travels
+    glm::vec3 intensity{1};        ///< point, spot: W/sr; directional: W/m² at normal incidence
+    float inner_cone = 0;          ///< half-angle, radians
+    float outer_cone = 0.7853982f; ///< half-angle, radians
+    float radius = 0;              ///< metres, point and spot; only the reference and soft shadows use it
+    float angular_radius = 0;      ///< radians, directional
     bool enabled = true;
 };
 
@@ -128,8 +129,8 @@ struct Node {
     int mesh = -1;
     int camera = -1;
     int light = -1;
-    Path path;             ///< of a placed object: replaces `translation` (and, with targets, the rotation)
-    bool dynamic = false;  ///< an animation or path moves it (or an ancestor)
+    Path path;            ///< of a placed object: replaces `translation` (and, with targets, the rotation)
+    bool dynamic = false; ///< an animation or path moves it (or an ancestor)
 };
 
 enum class AnimationTarget { translation, rotation, scale };
@@ -139,7 +140,7 @@ struct AnimationChannel {
     int node = -1;
     AnimationTarget target = AnimationTarget::translation;
     Interpolation interpolation = Interpolation::linear;
-    std::vector<float> times;     ///< seconds, increasing
+    std::vector<float> times;      ///< seconds, never decreasing
     std::vector<glm::vec4> values; ///< one per key (three per key for cubic_spline: in-tangent, value, out-tangent)
 };
 
@@ -197,7 +198,7 @@ struct Instance {
 /// The scene at one time: what passes and the reference consume.
 struct SceneState {
     std::vector<Instance> instances;
-    std::vector<Light> lights; ///< enabled lights only, in world space
+    std::vector<Light> lights;   ///< enabled lights only, in world space
     std::vector<Camera> cameras; ///< the file's cameras in world space
 };
 
@@ -227,7 +228,7 @@ struct SceneFacts {
     bool animated_lights = false;
     bool environment = false; ///< radiance above zero
     float animation_duration = 0;
-    Bounds bounds;                ///< at time 0
+    Bounds bounds; ///< at time 0
     Bounds bounds_over_animation;
 };
 

@@ -1,7 +1,6 @@
 #include "scene/shading_frame.h"
 
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 
 namespace bounce {
 

@@ -13,17 +13,18 @@ namespace bounce {
 
 /// A shot as loaded: the scene with its objects placed, and what the file says besides.
 struct Shot {
-    std::string name;            ///< file name without extension, or the scene's name
-    std::filesystem::path path;  ///< the file it came from
-    Scene scene;                 ///< file scene plus `objects`, lights by `lights_mode`, diffuse_only and normal_maps applied
+    std::string name;           ///< file name without extension, or the scene's name
+    std::filesystem::path path; ///< the file it came from
+    Scene scene;                ///< file scene plus `objects`, lights by `lights_mode`, normal_maps applied
     Environment environment;
-    Camera camera;               ///< when the shot names none: the file's first camera, else one that frames the bounds
-    Path camera_path;            ///< empty unless the shot has one
-    std::vector<Path> light_paths; ///< per Scene::lights entry; empty paths for those that stay
+    Camera camera;    ///< when the shot names none: the file's first camera, else one that frames the bounds
+    Path camera_path; ///< empty unless the shot has one
+    std::vector<Path> light_paths; ///< per Scene::lights entry, to look at; Node::path is what moves the light
     int width = 1280;
     int height = 720;
     float time = 0; ///< seconds of frame 0
     float fps = 60;
+    /// The materials are as authored: who shades reads ρ = base colour · (1 − metallic), and no specular lobe.
     bool diffuse_only = false;
     bool normal_maps = true;
 
@@ -47,9 +48,9 @@ SceneFacts shot_facts(const Shot& shot);
 /// Loads one glTF file (.gltf, .glb). Throws Error; what it skips is in Scene::notes.
 Scene load_gltf(const std::filesystem::path& path);
 
-/// Finds a scene by path or by name ("sponza/Sponza.gltf", "cornell"): relative to `base`, then the search path: $BOUNCE_SCENES
-/// (colon separated), the assets' scenes folder, and ../shared/scenes beside the source tree. Throws Error naming
-/// the places tried.
+/// Finds a scene by path or by name ("sponza/Sponza.gltf", "cornell"): relative to `base`, then the search path:
+/// $BOUNCE_SCENES (colon separated), the assets' scenes folder, and ../shared/scenes beside the source tree. Throws
+/// Error naming the places tried.
 std::filesystem::path find_scene(const std::string& name, const std::filesystem::path& base);
 
 /// The camera as JSON text for a shot file ({"position":…}), for captures and bookmarks.

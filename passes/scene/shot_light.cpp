@@ -1,9 +1,8 @@
-#include "scene/keyframes.h"
-#include "scene/shot_parts.h"
-
 #include "core/image.h"
 #include "scene/find_scene.h"
 #include "scene/json_text.h"
+#include "scene/keyframes.h"
+#include "scene/shot_parts.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -124,9 +124,10 @@ TEST_F(GraphFileErrors, WhatAShaderCannotDoWithItsResource) {
     EXPECT_THAT(text, HasSubstr("pass 'reads' (reads.comp:2) uses 'a.a' as a sampler3D, but it is a texture_2d"));
     EXPECT_THAT(text, HasSubstr("srgb8_alpha8"));
     shader("previous.comp", "layout(FORMAT_a_a) uniform image2D a_a;");
-    EXPECT_THAT(error_of([&] {
-                    plan(R"("resources": {"a.a": {}}, "passes": [{"id":"x","type":"compute","shader":"fill.comp","bind":{"a.a":"previous(a.a)"}
-}])");
-}),
-                HasSubstr("last frame's copy"));
+    EXPECT_THAT(
+        error_of([&] {
+            plan(
+                R"-("resources": {"a.a": {}}, "passes": [{"id":"x","type":"compute","shader":"fill.comp","bind":{"a.a":"previous(a.a)"}}])-");
+        }),
+        HasSubstr("last frame's copy"));
 }

@@ -48,6 +48,13 @@ TEST(Animation, Step) {
     EXPECT_EQ(origin_at(scene, 1.999f).x, 5);
 }
 
+TEST(Animation, TwoKeysAtOneTimeAreAJump) {
+    Scene scene = animated({0, 1, 1, 2}, {0, 0, 0, 1, 0, 0, 5, 0, 0, 6, 0, 0}, "translation", "LINEAR").load();
+    EXPECT_NEAR(origin_at(scene, 0.999f).x, 0.999f, 1e-5);
+    EXPECT_EQ(origin_at(scene, 1).x, 5);
+    EXPECT_EQ(origin_at(scene, 1.5f).x, 5.5f);
+}
+
 TEST(Animation, CubicSplineReproducesACubic) {
     // x(t) = t³, y(t) = t² − t, z = 2: in-tangent, value, out-tangent of each key are derivative, value, derivative.
     std::vector<float> times{0, 2, 3}, values;

@@ -51,8 +51,8 @@ TEST(Malformed, KnownVerdicts) {
     fs::path root = shared_scene("malformed");
     if (root.empty()) GTEST_SKIP() << "the folder of malformed files is not beside the source tree";
     fs::path khronos = root / "glTF-Validator/test/base/data", tiny = root / "tinygltf/models";
-    for (const char* good :
-         {"glb/valid.glb", "mesh/valid.gltf", "node/valid.gltf", "material/alpha_modes.gltf", "glb/bom.glb"}) {
+    for (const char* good : {"glb/valid.glb", "mesh/valid.gltf", "node/valid.gltf", "material/alpha_modes.gltf",
+                             "animation/valid.gltf", "glb/bom.glb"}) {
         if (!fs::exists(khronos / good)) continue;
         std::string what;
         try {
@@ -133,6 +133,63 @@ TEST(Malformed, RandomDamage) {
         SCOPED_TRACE(round);
         open_and_use(folder.write("damaged.glb", bytes));
         if (HasFatalFailure()) return;
+    }
+}
+
+TEST(Malformed, RandomValues) {
+    // The structure stands, and one or two of its values are anything at all.
+    const std::string whole = rich_glb();
+    uint32_t json_size;
+    std::memcpy(&json_size, whole.data() + 12, 4);
+    json root = json::parse(whole.substr(20, json_size));
+    root["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(whole.substr(28 + json_size));
+    const json flat = root.flatten();
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : flat.items()) {
+        keys.push_back(key);
+        if (auto slash = key.rfind('/'); slash > 0) keys.push_back(key.substr(0, slash)); // and what holds it
+    }
+    const std::vector<json> anything{0,
+                                     1,
+                                     -1,
+                                     2,
+                                     255,
+                                     65536,
+                                     uint64_t(1) << 31,
+                                     1e30,
+                                     -1e300,
+                                     0.5,
+                                     nullptr,
+                                     true,
+                                     "",
+                                     "SCALAR",
+                                     "MAT4",
+                                     "VEC4",
+                                     json(),
+                                     5120,
+                                     5121,
+                                     5125,
+                                     ~uint64_t(0),
+                                     {1, 2},
+                                     {0},
+                                     "weights",
+                                     "STEP",
+                                     "MASK",
+                                     "CUBICSPLINE",
+                                     json::array(),
+                                     {-1, 0},
+                                     uint64_t(1) << 62,
+                                     json::object()};
+    TempFolder folder;
+    std::mt19937 random(2);
+    for (int round = 0; round < 800; ++round) {
+        json damaged = root;
+        for (size_t i = 0; i < 1 + random() % 2; ++i) {
+            json::json_pointer at(keys[random() % keys.size()]);
+            if (damaged.contains(at)) damaged[at] = anything[random() % anything.size()];
+        }
+        SCOPED_TRACE(damaged.dump());
+        open_and_use(folder.write("damaged.gltf", damaged.dump()));
     }
 }
 

@@ -3,7 +3,7 @@
 from . import atrium_architecture as build
 from . import atrium_furnishing as furnish
 from . import textures
-from .atrium_plan import (ARCADE, COURT_X, COURT_Z, EAVES, HALL_X, HALL_Z, LOWER_CEILING, LOWER_SPRING, UPPER_CEILING,
+from .atrium_plan import (ARCADE, EAVES, HALL_X, HALL_Z, LOWER_CEILING, LOWER_SPRING, UPPER_CEILING,
                           UPPER_FLOOR, UPPER_SPRING, bays, columns, corners, spans)
 from .gltf import Gltf
 from .vector import about_axis, looking_along

@@ -46,24 +46,25 @@ void compare(benchmark::State& state, const std::string& name) {
         state.SkipWithError(error.what());
         return;
     }
-    shot.width = 480;
-    shot.height = 270;
+    shot.width = 192;
+    shot.height = 108;
     if (shot.scene.lights.empty() && !shot.environment.present()) shot.environment.radiance = glm::vec3(1);
     ReferenceRender render(shot, {});
-    render.step(1);
+    constexpr int k_samples = 8; // as many as the reference takes together
+    render.step(k_samples);
     double reference_seconds = 0, bare_seconds = 0, count = 0;
-    int sample = 1;
+    int sample = k_samples;
     for (auto _ : state) {
-        const std::vector<TracedRay> rays = render.rays_of_sample(sample);
+        const std::vector<TracedRay> rays = render.rays_of_samples(sample, sample + k_samples);
         const uint64_t before = render.rays();
         const auto start = std::chrono::steady_clock::now();
-        render.step(1);
+        render.step(k_samples);
         const double seconds = seconds_since(start);
         if (render.rays() - before != rays.size()) state.SkipWithError("the two did not trace the same rays");
         reference_seconds += seconds;
         bare_seconds += trace_bare(render.scene().geometry, rays);
         count += double(rays.size());
-        ++sample;
+        sample += k_samples;
         state.SetIterationTime(seconds);
     }
     state.counters["rays_per_s"] = count / reference_seconds;

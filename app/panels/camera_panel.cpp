@@ -1,0 +1,181 @@
+// The camera in numbers, its bookmarks, the size of the picture, and time.
+#include "app/panels/panel.h"
+#include "app/ui/camera_control.h"
+#include "app/ui/style.h"
+#include "app/ui/widget_rects.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <imgui_stdlib.h>
+
+namespace bounce {
+
+namespace {
+
+void draw_numbers(PanelContext& context) {
+    Session& session = context.session;
+    Camera camera = session.camera();
+    float diagonal = std::max(session.facts().bounds_over_animation.diagonal(), 1e-3f);
+    ImGui::PushItemWidth(-ImGui::GetFontSize() * 4.5f);
+    bool changed = ImGui::DragFloat3("position", &camera.position.x, 0.001f * diagonal, 0, 0, "%.3f");
+    note_widget("camera.position");
+    changed = ImGui::DragFloat3("target", &camera.target.x, 0.001f * diagonal, 0, 0, "%.3f") || changed;
+    changed = ImGui::DragFloat3("up", &camera.up.x, 0.005f, -1, 1, "%.3f") || changed;
+    float degrees = glm::degrees(camera.vfov);
+    if (ImGui::SliderFloat("field", &degrees, 5, 120, "%.1f°", ImGuiSliderFlags_AlwaysClamp)) {
+        camera.vfov = glm::radians(degrees);
+        changed = true;
+    }
+    note_widget("camera.field");
+    help("Vertical field of view.");
+    ImGui::PopItemWidth();
+    bool looks = glm::distance(camera.position, camera.target) > 1e-6f && glm::length(camera.up) > 1e-6f;
+    if (changed && looks) {
+        session.set_camera(camera);
+        context.ui.redraw();
+    }
+    ImGui::BeginDisabled(!session.camera_is_set());
+    if (ImGui::Button("shot's camera")) {
+        session.follow_shot_camera();
+        context.ui.redraw();
+    }
+    ImGui::EndDisabled();
+    help("Home does the same.");
+    ImGui::SameLine();
+    if (ImGui::Button("whole scene")) {
+        session.set_camera(camera_of_whole_scene(session), true);
+        context.ui.redraw();
+    }
+    help("F does the same.");
+    ImGui::SameLine();
+    if (ImGui::Button("copy")) {
+        ImGui::SetClipboardText(camera_json(session.camera()).c_str());
+        context.ui.say("the camera is on the clipboard, as a shot file holds it");
+    }
+    help("As JSON, for a shot file.");
+}
+
+void draw_bookmarks(PanelContext& context) {
+    WindowState& state = context.ui.window;
+    const std::string& shot = context.session.options().shot;
+    static std::string name;
+    ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 3.2f);
+    bool enter = ImGui::InputTextWithHint("##name", "name of a new bookmark", &name, ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::SameLine();
+    int number = 0;
+    bool add = ImGui::Button("add", {-1, 0});
+    note_widget("camera.add_bookmark");
+    int remove = -1;
+    for (int i = 0; i < int(state.bookmarks.size()); ++i) {
+        const Bookmark& mark = state.bookmarks[size_t(i)];
+        if (mark.shot != shot) continue;
+        ++number;
+        ImGui::PushID(i);
+        ImGui::TextColored(k_dim_colour, "%s", number <= 9 ? std::to_string(number).c_str() : " ");
+        ImGui::SameLine(ImGui::GetFontSize() * 1.6f);
+        if (ImGui::Selectable(mark.name.c_str(), false, 0, {ImGui::GetContentRegionAvail().x - ImGui::GetFontSize() * 2, 0})) {
+            context.session.set_camera(mark.camera, true);
+            context.ui.redraw();
+        }
+        ImGui::SameLine();
+        if (ImGui::SmallButton("×")) remove = i;
+        help("Forget this bookmark.");
+        ImGui::PopID();
+    }
+    if (remove >= 0) state.bookmarks.erase(state.bookmarks.begin() + remove);
+    if (number == 0) ImGui::TextColored(k_dim_colour, "none for this shot (B adds one)");
+    if (add || enter) {
+        state.bookmarks.push_back({shot, name.empty() ? fmt::format("view {}", number + 1) : name, context.session.camera()});
+        name.clear();
+    }
+}
+
+void draw_size(PanelContext& context) {
+    PictureSizing& sizing = context.ui.window.sizing;
+    const Shot& shot = context.session.shot();
+    int choice = sizing.fit ? 0 : sizing.fixed.x > 0 ? 2 : 1;
+    ImGui::PushItemWidth(-ImGui::GetFontSize() * 3);
+    if (ImGui::Combo("size", &choice, "of the window\0of the shot\0fixed\0")) {
+        sizing.fit = choice == 0;
+        sizing.fixed = choice == 2 ? context.session.size() : glm::ivec2(0);
+    }
+    if (choice == 1) help(fmt::format("{}×{}", shot.width, shot.height).c_str());
+    if (choice == 2) {
+        glm::ivec2 size = sizing.fixed;
+        ImGui::InputInt2("pixels", &size.x);
+        // Only when typing is done: half a number would allocate half a picture.
+        if (ImGui::IsItemDeactivatedAfterEdit()) sizing.fixed = glm::clamp(size, glm::ivec2(16), glm::ivec2(8192));
+    }
+    static const float scales[] = {0.25f, 0.5f, 0.75f, 1.0f, 2.0f};
+    std::string shown = fmt::format("×{:g}", sizing.scale);
+    if (ImGui::BeginCombo("scale", shown.c_str())) {
+        for (float scale : scales) {
+            if (ImGui::Selectable(fmt::format("×{:g}", scale).c_str(), scale == sizing.scale)) sizing.scale = scale;
+        }
+        ImGui::EndCombo();
+    }
+    help("Fewer pixels are rendered on a slow machine.");
+    ImGui::PopItemWidth();
+    ImGui::TextColored(k_dim_colour, "%d × %d pixels", context.session.size().x, context.session.size().y);
+}
+
+void draw_time(PanelContext& context) {
+    Session& session = context.session;
+    UiState& ui = context.ui;
+    if (ImGui::Button(ui.paused ? "play" : "pause", {ImGui::GetFontSize() * 4, 0})) ui.paused = !ui.paused;
+    note_widget("camera.play");
+    ImGui::SameLine();
+    if (ImGui::Button("step")) ui.single_step = true;
+    note_widget("camera.step");
+    ImGui::SameLine();
+    if (ImGui::Button("start")) {
+        session.set_frame(0);
+        ui.redraw();
+    }
+    ImGui::SameLine();
+    if (ImGui::Checkbox("always", &ui.render_always)) ui.redraw();
+    help("Render continuously, also when nothing changes: to measure, or to let a method converge.");
+    int frame = session.frame();
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
+    if (ImGui::InputInt("frame", &frame, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue)) {
+        session.set_frame(std::clamp(frame, 0, 10000000));
+        ui.redraw();
+    }
+    ImGui::SameLine();
+    ImGui::TextColored(k_dim_colour, "%.3f s", double(session.time()));
+}
+
+void draw_history(const UiState& ui) {
+    if (ui.frame_ms.empty()) return;
+    std::vector<float> sorted = ui.frame_ms;
+    std::sort(sorted.begin(), sorted.end());
+    float median = sorted[sorted.size() / 2], most = sorted.back(), high = sorted[sorted.size() * 95 / 100];
+    std::string text = fmt::format("median {:.1f} ms, 95 % {:.1f}, worst {:.1f}", median, high, most);
+    // The scale ignores a lone outlier, such as a shader that was compiled.
+    float top = std::max(1.3f * high, 1.0f);
+    ImGui::PlotHistogram("##history", ui.frame_ms.data(), int(ui.frame_ms.size()), 0, nullptr, 0, top, {-1, ImGui::GetFontSize() * 4.5f});
+    ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+    for (float budget : {16.7f, 33.3f}) {
+        if (budget > top) continue;
+        float y = max.y - budget / top * (max.y - min.y);
+        ImGui::GetWindowDrawList()->AddLine({min.x, y}, {max.x, y}, IM_COL32(255, 255, 255, 60));
+    }
+    ImGui::TextColored(k_dim_colour, "%s", text.c_str());
+    help("The last frames, panels and display included. Lines: 16.7 and 33.3 ms.");
+}
+
+} // namespace
+
+void draw_camera_panel(PanelContext& context) {
+    ImGui::PushID("camera");
+    if (ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) draw_numbers(context);
+    if (ImGui::CollapsingHeader("Bookmarks", ImGuiTreeNodeFlags_DefaultOpen)) draw_bookmarks(context);
+    if (ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen)) draw_size(context);
+    if (ImGui::CollapsingHeader("Time", ImGuiTreeNodeFlags_DefaultOpen)) {
+        draw_time(context);
+        draw_history(context.ui);
+    }
+    ImGui::PopID();
+}
+
+} // namespace bounce

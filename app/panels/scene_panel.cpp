@@ -1,0 +1,137 @@
+// The shot that is shown, what it holds, and its lights and materials to turn at.
+#include "app/panels/light_rows.h"
+#include "app/panels/material_rows.h"
+#include "app/panels/panel.h"
+#include "app/ui/edit.h"
+#include "app/ui/marks.h"
+#include "app/ui/open.h"
+#include "app/ui/widget_rects.h"
+#include "core/text.h"
+
+#include <fmt/format.h>
+#include <imgui_stdlib.h>
+
+namespace bounce {
+
+namespace {
+
+/// A list of the assets' names, and a line for any other file.
+void draw_choice(PanelContext& context, const char* label, const char* folder, const std::string& shown,
+                 void (*ask)(PanelContext&, const std::string&)) {
+    ImGui::PushID(label);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(k_dim_colour, "%s", label);
+    ImGui::SameLine(ImGui::GetFontSize() * 3.6f);
+    ImGui::SetNextItemWidth(-1);
+    bool open = ImGui::BeginCombo("##choice", shown.c_str(), ImGuiComboFlags_HeightLarge);
+    note_widget(std::string("scene.") + label);
+    if (open) {
+        for (const std::string& name : asset_names(folder)) {
+            if (ImGui::Selectable(name.c_str(), name == shown)) ask(context, name);
+            note_widget(std::string("scene.") + label + "." + name);
+        }
+        ImGui::EndCombo();
+    }
+    ImGui::PopID();
+}
+
+void draw_path_entry(PanelContext& context) {
+    static std::string path;
+    ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 3.4f);
+    bool enter = ImGui::InputTextWithHint("##path", "path of a .gltf, .glb, shot or graph", &path, ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::SameLine();
+    bool pressed = ImGui::Button("open", {-1, 0});
+    help("Files may also be dropped on the window.");
+    if ((enter || pressed) && !path.empty()) ask_for_file(context, path);
+}
+
+void draw_facts(const Session& session) {
+    const SceneFacts& facts = session.facts();
+    const GpuScene& gpu = session.gpu_scene();
+    fact("triangles", "%zu in %zu draws", facts.triangles, facts.instances);
+    fact("vertices", "%zu", facts.vertices);
+    fact("materials", "%zu: %zu glossy, %zu emissive, %zu masked", facts.materials, facts.glossy_materials,
+         facts.emissive_materials, facts.alpha_tested_materials);
+    fact("textures", "%zu, %s", facts.textures, format_bytes(double(gpu.texture_bytes())).c_str());
+    fact("geometry", "%s", format_bytes(double(gpu.geometry_bytes())).c_str());
+    fact("lights", "%zu point, %zu spot, %zu directional", facts.point_lights, facts.spot_lights, facts.directional_lights);
+    if (facts.dynamic_instances > 0 || facts.animated_lights) {
+        fact("moving", "%zu draws%s, %.3g s", facts.dynamic_instances, facts.animated_lights ? " and lights" : "",
+             double(facts.animation_duration));
+    }
+    glm::vec3 size = facts.bounds.size();
+    fact("size", "%.3g × %.3g × %.3g m", double(size.x), double(size.y), double(size.z));
+}
+
+void draw_notes(const Session& session) {
+    const std::vector<std::string>& notes = session.shot().scene.notes;
+    if (notes.empty()) return;
+    if (!ImGui::TreeNode("notes", "%zu note%s of the loader", notes.size(), notes.size() == 1 ? "" : "s")) return;
+    for (const std::string& note : notes) show_wrapped("· " + note, k_warning_colour);
+    ImGui::TreePop();
+}
+
+void draw_surroundings(PanelContext& context) {
+    Session& session = context.session;
+    Shot& shot = session.shot();
+    auto changed = [&session, &ui = context.ui] {
+        session.scene_edited();
+        ui.redraw();
+    };
+    ImGui::PushItemWidth(-ImGui::GetFontSize() * 6);
+    glm::vec3 radiance = shot.environment.radiance;
+    if (ImGui::ColorEdit3("environment", &radiance.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR)) {
+        edit(context, "environment", shot.environment.radiance, glm::max(radiance, glm::vec3(0)), [&session, changed](const glm::vec3& value) {
+            session.shot().environment.radiance = value;
+            changed();
+        });
+    }
+    note_widget("scene.environment");
+    help(shot.environment.map.empty() ? "Radiance from all around, W/(sr·m²)." : "What the map's radiance is multiplied by.");
+    ImGui::PopItemWidth();
+
+    bool diffuse_only = shot.diffuse_only;
+    if (ImGui::Checkbox("diffuse only", &diffuse_only)) {
+        edit(context, "diffuse only", !diffuse_only, diffuse_only, [&session, changed](bool value) {
+            session.shot().diffuse_only = value;
+            changed();
+        });
+    }
+    note_widget("scene.diffuse_only");
+    help("Every material is Lambert, with base colour · (1 − metallic).");
+    ImGui::SameLine();
+    bool normal_maps = shot.normal_maps;
+    bool any = std::any_of(shot.scene.materials.begin(), shot.scene.materials.end(),
+                           [](const Material& material) { return material.normal_texture.texture >= 0; });
+    ImGui::BeginDisabled(!any);
+    if (ImGui::Checkbox("normal maps", &normal_maps)) {
+        edit(context, "normal maps", !normal_maps, normal_maps, [&session, changed](bool value) {
+            session.shot().normal_maps = value;
+            changed();
+        });
+    }
+    ImGui::EndDisabled();
+    help(any ? "Normals from textures, or those of the vertices." : "No material of this scene has a normal map.");
+}
+
+} // namespace
+
+void draw_scene_panel(PanelContext& context) {
+    Session& session = context.session;
+    ImGui::PushID("scene");
+    draw_choice(context, "shot", "shots", session.shot().name, ask_for_shot);
+    draw_choice(context, "graph", "graphs", session.graph().model().file().name, ask_for_graph);
+    draw_path_entry(context);
+    if (ImGui::CollapsingHeader("Facts", ImGuiTreeNodeFlags_DefaultOpen)) {
+        draw_facts(session);
+        draw_notes(session);
+    }
+    if (ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen)) {
+        draw_surroundings(context);
+        draw_light_rows(context);
+    }
+    if (ImGui::CollapsingHeader("Materials")) draw_material_rows(context);
+    ImGui::PopID();
+}
+
+} // namespace bounce

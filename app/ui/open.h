@@ -1,0 +1,20 @@
+#pragma once
+// Opening shots, scenes and graphs from the window.
+
+#include "app/panels/panel.h"
+
+namespace bounce {
+
+/// Remembers what the scene is like now, so that edits can be told and written.
+SceneBaseline baseline_of(const Session& session);
+
+/// These ask for it: it happens between frames, and an Error shows in the status bar while the old stays.
+void ask_for_shot(PanelContext& context, const std::string& name);
+void ask_for_graph(PanelContext& context, const std::string& name);
+/// A file by what it holds: a .gltf or .glb by its extension, a .json by its keys.
+void ask_for_file(PanelContext& context, const std::string& path);
+
+/// Names of the .json files of a folder of the assets ("shots", "graphs"), sorted.
+std::vector<std::string> asset_names(const char* folder);
+
+} // namespace bounce

@@ -1,0 +1,230 @@
+#include "app/ui/shot_writer.h"
+
+#include "app/ui/captures.h"
+#include "core/error.h"
+#include "core/image.h"
+#include "scene/find_scene.h"
+#include "scene/keyframes.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace bounce {
+
+namespace fs = std::filesystem;
+using json = nlohmann::ordered_json;
+
+namespace {
+
+/// The shortest decimal that reads back as the same float.
+json number(float value) {
+    return json::parse(fmt::format("{}", value));
+}
+
+json vector(const glm::vec3& v) {
+    return {number(v.x), number(v.y), number(v.z)};
+}
+
+bool same_light(const Light& a, const Light& b) {
+    return a.intensity == b.intensity && a.inner_cone == b.inner_cone && a.outer_cone == b.outer_cone &&
+           a.radius == b.radius && a.angular_radius == b.angular_radius && a.enabled == b.enabled;
+}
+
+bool same_place(const Node& a, const Node& b) {
+    return a.translation == b.translation && a.rotation == b.rotation && a.has_matrix == b.has_matrix;
+}
+
+const Node* node_of(const Scene& scene, int light) {
+    auto found = std::find_if(scene.nodes.begin(), scene.nodes.end(), [&](const Node& node) { return node.light == light; });
+    return found == scene.nodes.end() ? nullptr : &*found;
+}
+
+bool lights_edited(const Scene& scene, const SceneBaseline& opened) {
+    if (scene.lights.size() != opened.lights.size()) return true;
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        const Node* node = node_of(scene, int(i));
+        if (!same_light(scene.lights[i], opened.lights[i])) return true;
+        if (node && !same_place(*node, opened.light_nodes[i])) return true;
+    }
+    return false;
+}
+
+json path_json(const Path& path) {
+    json keys = json::array();
+    for (const PathKey& key : path.keys) {
+        json out{{"t", number(key.t)}, {"position", vector(key.position)}};
+        if (key.has_target) out["target"] = vector(key.target);
+        keys.push_back(out);
+    }
+    return keys;
+}
+
+json light_json(const Light& light, const Node* node, const glm::mat4& world) {
+    static const char* const types[] = {"point", "spot", "directional"};
+    json out;
+    if (!light.name.empty()) out["name"] = light.name;
+    out["type"] = types[size_t(light.type)];
+    if (light.type != LightType::directional) out["position"] = vector(glm::vec3(world[3]));
+    if (light.type != LightType::point) out["direction"] = vector(-glm::normalize(glm::vec3(world[2])));
+    out["intensity"] = vector(light.intensity);
+    if (light.type == LightType::spot) {
+        out["inner_cone_deg"] = number(glm::degrees(light.inner_cone));
+        out["outer_cone_deg"] = number(glm::degrees(light.outer_cone));
+    }
+    if (light.radius > 0) out["radius"] = number(light.radius);
+    if (light.angular_radius > 0) out["angular_radius_deg"] = number(glm::degrees(light.angular_radius));
+    if (!light.enabled) out["enabled"] = false;
+    if (node && !node->path.empty()) out["path"] = path_json(node->path);
+    return out;
+}
+
+json lights_json(const Session& session) {
+    const Scene& scene = session.shot().scene;
+    std::vector<glm::mat4> worlds = world_matrices(scene, session.time());
+    json lights = json::array();
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        const Node* node = node_of(scene, int(i));
+        if (!node) continue; // shines nowhere
+        lights.push_back(light_json(scene.lights[i], node, worlds[size_t(node - scene.nodes.data())]));
+    }
+    return lights;
+}
+
+/// The name under which a file that was `name` beside the old shot is found from the new one.
+template <typename Find> std::string moved_name(const std::string& name, const fs::path& from, const fs::path& to, Find find) {
+    fs::path meant = fs::weakly_canonical(find(name, from));
+    try {
+        if (fs::weakly_canonical(find(name, to)) == meant) return name;
+    } catch (const Error&) {
+    }
+    return meant.string();
+}
+
+/// The file that the shot came from, with names that hold in `folder`; for a plain scene a new shot of it.
+json original(const Shot& shot, const fs::path& folder) {
+    if (shot.path.extension() != ".json") return {{"scene", fs::weakly_canonical(shot.path).string()}};
+    json root = json::parse(read_file(shot.path), nullptr, true, true);
+    fs::path from = shot.path.parent_path();
+    auto scene = [&](json& holder) {
+        holder["scene"] = moved_name(holder.at("scene").get<std::string>(), from, folder, find_scene);
+    };
+    scene(root);
+    if (root.contains("objects")) {
+        for (json& object : root["objects"]) scene(object);
+    }
+    if (root.contains("environment")) {
+        json& environment = root["environment"];
+        json* map = environment.is_string() ? &environment : environment.is_object() && environment.contains("map") ? &environment["map"] : nullptr;
+        if (map) *map = moved_name(map->get<std::string>(), from, folder, find_scene_file);
+    }
+    return root;
+}
+
+void set_environment(json& root, const Environment& environment) {
+    if (environment.map.empty()) {
+        root["environment"] = vector(environment.radiance);
+        return;
+    }
+    json& old = root["environment"];
+    json map = old.is_object() ? old["map"] : old;
+    old = json{{"map", map}, {"scale", vector(environment.radiance)}};
+}
+
+} // namespace
+
+std::string shot_text(const Session& session, const SceneBaseline& opened, const fs::path& folder) {
+    const Shot& shot = session.shot();
+    json root = original(shot, folder);
+    bool plain_scene = shot.path.extension() != ".json";
+    root["width"] = session.size().x;
+    root["height"] = session.size().y;
+    root["time"] = number(session.time());
+    root["fps"] = number(shot.fps);
+    if (session.camera_is_set() || !root.contains("camera_path")) {
+        root["camera"] = json::parse(camera_json(session.camera()));
+        root.erase("camera_path");
+    }
+    // A default light of a plain scene is no part of its file.
+    bool default_light = plain_scene && !shot.scene.lights.empty() && shot.scene.lights.back().name == "default light";
+    if (default_light || lights_edited(shot.scene, opened)) {
+        root["lights_mode"] = "replace";
+        root["lights"] = lights_json(session);
+    }
+    bool environment_edited = shot.environment.radiance != opened.environment;
+    if (environment_edited || (plain_scene && shot.environment.present())) set_environment(root, shot.environment);
+    if (shot.diffuse_only || root.contains("diffuse_only")) root["diffuse_only"] = shot.diffuse_only;
+    if (!shot.normal_maps || root.contains("normal_maps")) root["normal_maps"] = shot.normal_maps;
+    return root.dump(2) + "\n";
+}
+
+bool differs_from_shot(const Session& session, const SceneBaseline& opened) {
+    const Shot& shot = session.shot();
+    return session.camera_is_set() || lights_edited(shot.scene, opened) ||
+           shot.environment.radiance != opened.environment || shot.diffuse_only != opened.diffuse_only ||
+           shot.normal_maps != opened.normal_maps;
+}
+
+std::string unsaved_edits(const Session& session, const SceneBaseline& opened) {
+    const std::vector<Material>& now = session.shot().scene.materials;
+    size_t edited = 0;
+    for (size_t i = 0; i < now.size() && i < opened.materials.size(); ++i) {
+        const Material &a = now[i], &b = opened.materials[i];
+        edited += a.base_colour != b.base_colour || a.metallic != b.metallic || a.roughness != b.roughness || a.emission != b.emission;
+    }
+    if (!edited) return {};
+    return fmt::format("{} edited material{}: shot files hold none", edited, edited == 1 ? "" : "s");
+}
+
+/// What would be written for `folder`, or empty where that fails.
+static std::string state_text(const PanelContext& context, const fs::path& folder) {
+    try {
+        return shot_text(context.session, context.ui.window.opened, folder);
+    } catch (const std::exception&) {
+        return {};
+    }
+}
+
+fs::path save_shot(PanelContext& context) {
+    CaptureState& capture = context.ui.window.capture;
+    fs::path folder = capture.folder.empty() ? fs::path(".") : fs::path(capture.folder);
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw Error("cannot create the folder '" + folder.string() + "': " + error.message());
+    std::string text;
+    try {
+        text = shot_text(context.session, context.ui.window.opened, folder);
+    } catch (const nlohmann::json::exception& problem) {
+        throw Error("'" + context.session.shot().path.string() + "' is not the shot that was opened any more: " + problem.what());
+    }
+    fs::path path = new_file(folder.string(), context.session.shot().name + "_view", ".json");
+    write_file_atomically(path, text);
+    capture.saved_shot = path.lexically_normal().string();
+    capture.saved_state = text;
+    context.ui.say("saved " + capture.saved_shot);
+    return path;
+}
+
+/// For a shell: quoted where a name needs it.
+static std::string quoted(const std::string& text) {
+    if (text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./,:=@%") == std::string::npos) return text;
+    std::string out = "'";
+    for (char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+}
+
+std::string reproducing_command(const PanelContext& context) {
+    const Session& session = context.session;
+    const CaptureState& capture = context.ui.window.capture;
+    std::string line = session.command_line("picture.png");
+    if (!differs_from_shot(session, context.ui.window.opened)) return line;
+    if (capture.saved_shot.empty() || state_text(context, fs::path(capture.saved_shot).parent_path()) != capture.saved_state) return {};
+    // The saved shot begins at the time that is shown: its first frame is the picture.
+    std::string start = "bounce render " + session.options().shot;
+    std::string rest = line.substr(std::min(start.size(), line.size()));
+    std::string frames = fmt::format(" --frames {}", session.frame() + 1);
+    if (size_t at = rest.find(frames); session.frame() > 0 && at != std::string::npos) rest.erase(at, frames.size());
+    return "bounce render " + quoted(capture.saved_shot) + rest;
+}
+
+} // namespace bounce

@@ -1,0 +1,94 @@
+#include "app/ui/status_bar.h"
+
+#include "app/ui/style.h"
+#include "app/ui/widget_rects.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace bounce {
+
+/// "NVIDIA H100", "llvmpipe": without the driver's details, which the tooltip holds.
+static std::string short_renderer(const std::string& renderer) {
+    return renderer.substr(0, renderer.find_first_of("(/"));
+}
+
+static float recent_ms(const UiState& ui) {
+    size_t count = std::min<size_t>(ui.frame_ms.size(), 20);
+    if (count == 0) return 0;
+    std::vector<float> last(ui.frame_ms.end() - long(count), ui.frame_ms.end());
+    std::nth_element(last.begin(), last.begin() + long(count / 2), last.end());
+    return last[count / 2];
+}
+
+static void gap() {
+    ImGui::SameLine(0, ImGui::GetFontSize());
+}
+
+static void draw_problems(PanelContext& context, size_t problems) {
+    ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.55f, 0.12f, 0.10f, 1));
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImVec4(0.70f, 0.16f, 0.13f, 1));
+    if (ImGui::SmallButton(fmt::format("{} error{}", problems, problems == 1 ? "" : "s").c_str())) {
+        context.ui.window.layout.show_right = true;
+        context.ui.window.select_tab = "Shaders";
+    }
+    ImGui::PopStyleColor(2);
+    note_widget("status.problems");
+    help("Show the Shaders panel.");
+    gap();
+}
+
+void draw_status_bar(PanelContext& context, const Area& area, const Capabilities& capabilities) {
+    Session& session = context.session;
+    UiState& ui = context.ui;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ImGui::GetFontSize() * 0.6f, ImGui::GetFontSize() * 0.3f});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.10f, 0.10f, 0.10f, 1));
+    begin_area("##status", area, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
+
+    if (size_t problems = session.graph().problems().size()) draw_problems(context, problems);
+    ImGui::TextColored(k_dim_colour, "%s", short_renderer(capabilities.renderer).c_str());
+    help(describe(capabilities).c_str());
+    gap();
+    ImGui::Text("%d×%d", session.size().x, session.size().y);
+    help("Size of the picture; the Camera panel sets it.");
+    gap();
+    float ms = recent_ms(ui);
+    bool running = !ui.paused || ui.render_always || ui.window.capture.recording;
+    if (running && ms > 0) ImGui::Text("%.1f ms  %.0f fps", double(ms), 1000.0 / double(ms));
+    else ImGui::Text("%.1f ms", double(ms));
+    help("Time of a whole frame, panels and display included.");
+    gap();
+    ImGui::TextColored(k_dim_colour, "passes %.2f ms", session.graph().frame_ms());
+    help("GPU time of all passes: the sum of their medians.");
+    gap();
+    const char* state = ui.window.capture.recording ? "recording" : !ui.paused ? "playing" : ui.render_always ? "rendering" : "paused";
+    ImGui::TextColored(ui.paused && !ui.render_always ? k_dim_colour : k_accent_colour, "%s", state);
+    gap();
+    ImGui::TextColored(k_dim_colour, "frame %d", session.frame());
+    if (ui.cursor_pixel.x >= 0) {
+        gap();
+        ImGui::TextColored(k_dim_colour, "pixel %d, %d", ui.cursor_pixel.x, ui.cursor_pixel.y);
+    }
+
+    // The notice takes what is left, cut short where it must be; a click shows the log.
+    gap();
+    float keys = ImGui::CalcTextSize("? keys").x + ImGui::GetFontSize();
+    float room = ImGui::GetContentRegionAvail().x - keys;
+    if (room > 40 && !ui.notice.empty()) {
+        std::string line = ui.notice.substr(0, ui.notice.find('\n'));
+        if (line.size() < ui.notice.size()) line += " …";
+        ImVec2 at = ImGui::GetCursorScreenPos();
+        ImGui::PushClipRect(at, {at.x + room, at.y + ImGui::GetTextLineHeightWithSpacing()}, true);
+        ImGui::TextColored(ui.notice_is_error ? k_error_colour : k_good_colour, "%s", line.c_str());
+        ImGui::PopClipRect();
+        help(ui.notice.c_str());
+        if (ImGui::IsItemClicked()) ui.show_log = !ui.show_log;
+    }
+    ImGui::SameLine(area.size.x - keys);
+    if (ImGui::SmallButton("? keys")) ui.show_keys = !ui.show_keys;
+    ImGui::End();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar();
+}
+
+} // namespace bounce

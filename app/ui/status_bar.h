@@ -1,0 +1,12 @@
+#pragma once
+// One line at the bottom: the renderer, what a frame costs, the notice, shader errors.
+
+#include "app/panels/panel.h"
+#include "app/ui/layout.h"
+#include "gpu/capabilities.h"
+
+namespace bounce {
+
+void draw_status_bar(PanelContext& context, const Area& area, const Capabilities& capabilities);
+
+} // namespace bounce

@@ -1,0 +1,97 @@
+#include "app/ui/viewer_app.h"
+
+#include "app/capture.h"
+#include "app/ui/open.h"
+#include "app/ui/style.h"
+#include "app/ui/ui_state_file.h"
+#include "app/ui/widget_rects.h"
+#include "core/error.h"
+#include "core/log.h"
+
+namespace bounce {
+
+ViewerApp::ImGuiLife::ImGuiLife() {
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr; // the window's state is kept in a file of ours
+    io.ConfigWindowsMoveFromTitleBarOnly = true;
+}
+
+ViewerApp::ImGuiLife::~ImGuiLife() {
+    ImGui::DestroyContext();
+}
+
+ViewerApp::ViewerApp(ViewOptions options) : options_(std::move(options)) {
+    ui_.window = load_window_state();
+    WindowState& state = ui_.window;
+    if (!options_.shot_given && !state.shot.empty()) options_.session.shot = state.shot;
+    if (!options_.graph_given && !state.graph.empty()) options_.session.graph = state.graph;
+    if (options_.session.size) {
+        state.sizing = {false, 1, *options_.session.size};
+    }
+    if (!options_.dump_ui.empty()) start_widget_dump(options_.dump_ui);
+    if (!options_.capture_on_exit.empty()) check_output_path(options_.capture_on_exit);
+
+    WindowOptions wanted;
+    wanted.size = options_.window_size.value_or(state.size);
+    wanted.maximized = state.maximized && !options_.window_size;
+    window_ = std::make_unique<Window>(wanted);
+    make_interface();
+    splash("opening " + options_.session.shot + " …");
+    open_session();
+    spdlog::debug("{}", describe(window_->capabilities()));
+    state.opened = baseline_of(*session_);
+}
+
+ViewerApp::~ViewerApp() {
+    ui_.window.shot = session_ ? session_->options().shot : "";
+    ui_.window.graph = session_ ? session_->options().graph : "";
+    if (window_ && session_) {
+        ui_.window.maximized = window_->maximized();
+        if (!ui_.window.maximized) ui_.window.size = window_->size();
+        // What a command line fixed was meant for that run.
+        if (options_.session.size) ui_.window.sizing = {};
+        save_window_state(ui_.window);
+    }
+    viewport_.release_gpu();
+    session_.reset();
+}
+
+void ViewerApp::make_interface() {
+    float scale = window_->content_scale() * ui_.window.interface_scale;
+    apply_style(scale);
+    load_fonts(scale, window_->pixel_ratio());
+    window_->make_font_texture();
+}
+
+/// A first frame, since a large scene takes seconds.
+void ViewerApp::splash(const std::string& text) {
+    // Some window managers map a window only after a while: what is drawn before is lost.
+    for (int i = 0; i < 2; ++i) {
+        window_->poll_events();
+        window_->begin_frame();
+        ImVec2 display = ImGui::GetIO().DisplaySize, size = ImGui::CalcTextSize(text.c_str());
+        ImVec2 at{0.5f * (display.x - size.x), 0.5f * (display.y - size.y)};
+        ImGui::GetForegroundDrawList()->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+        window_->end_frame();
+    }
+}
+
+void ViewerApp::open_session() {
+    // What the last run left behind may be gone: then the window opens on what is always there.
+    bool remembered = (!options_.shot_given && options_.session.shot != k_default_shot) ||
+                      (!options_.graph_given && options_.session.graph != k_default_graph);
+    try {
+        session_ = std::make_unique<Session>(options_.session);
+    } catch (const Error& error) {
+        if (!remembered) throw;
+        spdlog::warn("the last run's shot or graph cannot be opened again: {}", error.what());
+        ui_.say(std::string("the last shot cannot be opened again: ") + error.what(), true);
+        if (!options_.shot_given) options_.session.shot = k_default_shot;
+        if (!options_.graph_given) options_.session.graph = k_default_graph;
+        session_ = std::make_unique<Session>(options_.session);
+    }
+}
+
+} // namespace bounce

@@ -1,0 +1,82 @@
+#pragma once
+// The program with a window: one loop that hears events, renders when something changed, and draws the panels.
+
+#include "app/hosts/window.h"
+#include "app/ui/keys.h"
+#include "app/ui/viewport.h"
+
+namespace bounce {
+
+struct ViewOptions {
+    SessionOptions session;
+    bool shot_given = false, graph_given = false; ///< else those of the last run
+    std::optional<glm::ivec2> window_size;        ///< else that of the last run
+    int frames = 0;                               ///< quit after so many rendered frames; 0: when the window is closed
+    std::string capture_on_exit;                  ///< a .png or .exr
+    std::string dump_ui;                          ///< see widget_rects.h
+    int simulate_reset = -1;                      ///< act as if the GPU had been reset, when so many frames are rendered
+};
+
+class ViewerApp {
+  public:
+    /// Opens the window, the shot and the graph. Throws Error.
+    explicit ViewerApp(ViewOptions options);
+    ~ViewerApp();
+    /// Until the window is closed. Throws Error only when nothing can be shown any more.
+    void run();
+
+  private:
+    struct ImGuiLife { ///< before the window is made, and after it is gone
+        ImGuiLife();
+        ~ImGuiLife();
+    };
+
+    PanelContext context() { return {*session_, ui_, undo_}; }
+    void make_interface();
+    void splash(const std::string& text);
+    void open_session();
+
+    // viewer_loop.cpp: one turn of the loop
+    void wait();
+    void hear();
+    void attempt(const std::function<void()>& action);
+    void run_later_actions();
+    bool render_if_wanted();
+    bool time_to_advance();
+    void fit_picture();
+    void render();
+    void tell_problems();
+    void recover_from_reset();
+    bool finished() const;
+
+    // viewer_draw.cpp
+    void draw();
+    void draw_panels(PanelContext& panels, const Areas& areas);
+    void draw_keys_window(PanelContext& panels);
+
+    // viewer_commands.cpp
+    void obey(const std::string& chord);
+    void obey_time(KeyCommand command);
+    void obey_camera(KeyCommand command, const std::string& chord);
+    void obey_files(KeyCommand command);
+    void obey_window(KeyCommand command);
+
+    ViewOptions options_;
+    UiState ui_;
+    UndoStack undo_;
+    ImGuiLife imgui_;
+    std::unique_ptr<Window> window_;
+    std::unique_ptr<Session> session_;
+    Viewport viewport_;
+
+    int gui_frames_ = 3;      ///< still to be drawn: ImGui settles over a few
+    bool later_shown_ = false; ///< the notice of what run_later_actions() will do has been on the screen
+    double next_poll_ = 0, next_play_ = 0;
+    glm::ivec2 fitting_{0};    ///< a size that the picture is to have, once it has stayed so
+    double fitting_since_ = 0;
+    int rendered_ = 0;
+    bool reset_simulated_ = false;
+    std::string problems_; ///< as last told
+};
+
+} // namespace bounce

@@ -1,0 +1,121 @@
+// What keys do.
+#include "app/ui/captures.h"
+#include "app/ui/open.h"
+#include "app/ui/shot_writer.h"
+#include "app/ui/viewer_app.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace bounce {
+
+void ViewerApp::obey(const std::string& chord) {
+    // While text is typed, keys are letters; but a function key is never part of a text.
+    bool function_key = chord.find('F') != std::string::npos && std::isdigit(static_cast<unsigned char>(chord.back()));
+    if (ImGui::GetIO().WantTextInput && !function_key) return;
+    KeyCommand command = command_of(chord);
+    if (command == KeyCommand::none) return;
+    gui_frames_ = 3;
+    attempt([&] {
+        obey_time(command);
+        obey_camera(command, chord);
+        obey_files(command);
+        obey_window(command);
+    });
+}
+
+void ViewerApp::obey_time(KeyCommand command) {
+    switch (command) {
+    case KeyCommand::play: ui_.paused = !ui_.paused; break;
+    case KeyCommand::step: ui_.single_step = true; break;
+    case KeyCommand::first_frame:
+        session_->set_frame(0);
+        ui_.redraw();
+        break;
+    case KeyCommand::render_always: ui_.render_always = !ui_.render_always; break;
+    default: break;
+    }
+}
+
+/// The camera of the nth bookmark of this shot.
+static const Bookmark* bookmark_of(const WindowState& state, const std::string& shot, int number) {
+    for (const Bookmark& mark : state.bookmarks) {
+        if (mark.shot == shot && --number == 0) return &mark;
+    }
+    return nullptr;
+}
+
+void ViewerApp::obey_camera(KeyCommand command, const std::string& chord) {
+    switch (command) {
+    case KeyCommand::frame_scene: session_->set_camera(camera_of_whole_scene(*session_), true); break;
+    case KeyCommand::shot_camera: session_->follow_shot_camera(); break;
+    case KeyCommand::add_bookmark: {
+        const std::string& shot = session_->options().shot;
+        auto here = [&](const Bookmark& mark) { return mark.shot == shot; };
+        long count = std::count_if(ui_.window.bookmarks.begin(), ui_.window.bookmarks.end(), here);
+        ui_.window.bookmarks.push_back({shot, fmt::format("view {}", count + 1), session_->camera()});
+        ui_.say(fmt::format("bookmark {} added", count + 1));
+        return;
+    }
+    case KeyCommand::bookmark: {
+        const Bookmark* mark = bookmark_of(ui_.window, session_->options().shot, chord.back() - '0');
+        if (!mark) return ui_.say("there is no bookmark " + chord + " for this shot; B makes one");
+        session_->set_camera(mark->camera, true);
+        ui_.say(mark->name);
+        break;
+    }
+    case KeyCommand::reset_zoom: ui_.window.image_zoom = 1; return;
+    case KeyCommand::lock_cursor: ui_.cursor_locked = !ui_.cursor_locked && ui_.cursor_pixel.x >= 0; return;
+    case KeyCommand::unpin:
+        if (ui_.show_keys) ui_.show_keys = false;
+        else {
+            ui_.pinned.clear();
+            ui_.viewer = {};
+        }
+        return;
+    default: return;
+    }
+    ui_.redraw();
+}
+
+void ViewerApp::obey_files(KeyCommand command) {
+    PanelContext panels = context();
+    switch (command) {
+    case KeyCommand::capture_png: capture_picture(panels, ".png"); break;
+    case KeyCommand::capture_exr: capture_picture(panels, ".exr"); break;
+    case KeyCommand::record: ui_.window.capture.recording ? stop_recording(panels) : start_recording(panels); break;
+    case KeyCommand::save_shot: save_shot(panels); break;
+    case KeyCommand::reload_shot: ask_for_shot(panels, session_->options().shot); break;
+    default: break;
+    }
+}
+
+void ViewerApp::obey_window(KeyCommand command) {
+    auto scale = [&](float factor) {
+        ui_.window.interface_scale = std::clamp(ui_.window.interface_scale * factor, 0.5f, 3.0f);
+        make_interface();
+    };
+    switch (command) {
+    case KeyCommand::show_keys: ui_.show_keys = !ui_.show_keys; break;
+    case KeyCommand::show_log: ui_.show_log = !ui_.show_log; break;
+    case KeyCommand::show_left: ui_.window.layout.show_left = !ui_.window.layout.show_left; break;
+    case KeyCommand::show_right: ui_.window.layout.show_right = !ui_.window.layout.show_right; break;
+    case KeyCommand::fullscreen: window_->toggle_fullscreen(); break;
+    case KeyCommand::larger_interface: scale(1.1f); break;
+    case KeyCommand::smaller_interface: scale(1 / 1.1f); break;
+    case KeyCommand::quit: window_->close(); break;
+    case KeyCommand::undo:
+        ui_.say(undo_.next_undo().empty() ? "nothing to undo" : "undone: " + undo_.next_undo());
+        undo_.undo();
+        ui_.redraw();
+        break;
+    case KeyCommand::redo:
+        ui_.say(undo_.next_redo().empty() ? "nothing to redo" : "redone: " + undo_.next_redo());
+        undo_.redo();
+        ui_.redraw();
+        break;
+    default: break;
+    }
+}
+
+} // namespace bounce

@@ -1,0 +1,106 @@
+// The panels in their places.
+#include "app/ui/edit.h"
+#include "app/ui/status_bar.h"
+#include "app/ui/style.h"
+#include "app/ui/viewer_app.h"
+#include "app/ui/widget_rects.h"
+#include "core/error.h"
+
+#include <fmt/format.h>
+
+namespace bounce {
+
+namespace {
+
+struct Tab {
+    const char* name;
+    void (*draw)(PanelContext&);
+};
+
+const std::vector<Tab> k_left = {{"Scene", draw_scene_panel}, {"Camera", draw_camera_panel}, {"Capture", draw_capture_panel}};
+const std::vector<Tab> k_upper = {{"Graph", draw_graph_panel}, {"Resources", draw_resources_panel}, {"Shaders", draw_shaders_panel}};
+const std::vector<Tab> k_lower = {{"Parameters", draw_parameters_panel}, {"Pixel", draw_inspector_panel}};
+
+/// A panel that meets bad input says so, and the frame goes on.
+void draw_panel(const Tab& tab, PanelContext& context) {
+    try {
+        tab.draw(context);
+    } catch (const Error& error) {
+        context.ui.say(error.what(), true);
+    }
+}
+
+/// `shown`: the tab in front; changed by a person, or by what asks for a tab.
+void draw_tabs(const char* name, const Area& area, const std::vector<Tab>& tabs, std::string& shown, bool first, PanelContext& context) {
+    if (!area.visible()) return;
+    std::string& asked = context.ui.window.select_tab;
+    begin_area(name, area);
+    if (ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_NoTabListScrollingButtons)) {
+        std::string front;
+        for (const Tab& tab : tabs) {
+            bool select = asked == tab.name || (first && shown == tab.name);
+            bool open = ImGui::BeginTabItem(tab.name, nullptr, select ? ImGuiTabItemFlags_SetSelected : 0);
+            note_widget(std::string("tab.") + tab.name);
+            if (asked == tab.name) asked.clear();
+            if (!open) continue;
+            front = tab.name;
+            ImGui::BeginChild("panel");
+            draw_panel(tab, context);
+            ImGui::EndChild();
+            ImGui::EndTabItem();
+        }
+        // On the first frame ImGui shows the first tab before it hears which one is asked for.
+        if (!first && !front.empty()) shown = front;
+        ImGui::EndTabBar();
+    }
+    ImGui::End();
+}
+
+} // namespace
+
+void ViewerApp::draw() {
+    PanelContext panels = context();
+    float scale = interface_scale();
+    window_->set_title(fmt::format("{} · {} – Bounce", session_->shot().name, session_->graph().model().file().name));
+    window_->begin_frame();
+    begin_widget_frame();
+    begin_edit_frame();
+    ImVec2 display = ImGui::GetIO().DisplaySize;
+    Areas areas = arrange(ui_.window.layout, display, scale, ui_.show_log);
+    if (drag_splitters(ui_.window.layout, areas, scale)) areas = arrange(ui_.window.layout, display, scale, ui_.show_log);
+    draw_panels(panels, areas);
+    viewport_.draw(panels, areas.viewport, *window_);
+    draw_status_bar(panels, areas.status, window_->capabilities());
+    draw_keys_window(panels);
+    end_widget_frame(panels);
+    window_->end_frame();
+}
+
+void ViewerApp::draw_panels(PanelContext& panels, const Areas& areas) {
+    // Panels ask for their tab over two frames: the one that they are asked in may be drawn after it.
+    static bool first = true;
+    ui_.hovered.clear();
+    draw_tabs("##left", areas.left, k_left, ui_.window.left_tab, first, panels);
+    draw_tabs("##upper", areas.upper_right, k_upper, ui_.window.upper_tab, first, panels);
+    draw_tabs("##lower", areas.lower_right, k_lower, ui_.window.lower_tab, first, panels);
+    first = false;
+    if (!areas.log.visible()) return;
+    begin_area("##log", areas.log);
+    draw_log_panel(panels);
+    ImGui::End();
+}
+
+void ViewerApp::draw_keys_window(PanelContext& panels) {
+    if (!ui_.show_keys) return;
+    ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowBgAlpha(0.97f);
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x * 0.95f, display.y * 0.95f});
+    ImGui::SetNextWindowFocus();
+    if (ImGui::Begin("Keys", &ui_.show_keys, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_AlwaysAutoResize)) {
+        draw_keys_panel(panels);
+    }
+    ImGui::End();
+}
+
+} // namespace bounce

@@ -1,0 +1,204 @@
+// One turn of the loop: wait, hear, render what changed.
+#include "app/capture.h"
+#include "app/ui/captures.h"
+#include "app/ui/open.h"
+#include "app/ui/style.h"
+#include "app/ui/viewer_app.h"
+#include "core/error.h"
+#include "core/log.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+
+namespace bounce {
+
+namespace {
+
+double seconds_now() {
+    using namespace std::chrono;
+    return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+constexpr double k_poll_interval = 0.2;  ///< of watched files
+constexpr double k_settle_time = 0.15;   ///< of the viewport's size, before everything is allocated again
+constexpr size_t k_kept_frames = 240;    ///< of the history of frame times
+
+/// Ctrl+C in the terminal closes the window as its button does, so that its state is kept.
+volatile std::sig_atomic_t asked_to_quit = 0;
+void on_signal(int) {
+    asked_to_quit = 1;
+}
+
+} // namespace
+
+void ViewerApp::run() {
+    std::signal(SIGINT, on_signal);
+    std::signal(SIGTERM, on_signal);
+    ui_.redraw();
+    while (!window_->should_close() && !asked_to_quit && !finished()) {
+        wait();
+        if (window_->gpu_was_reset() || (rendered_ == options_.simulate_reset && !reset_simulated_)) recover_from_reset();
+        hear();
+        double start = seconds_now();
+        bool rendered = render_if_wanted();
+        bool visible = window_->framebuffer_size().x > 0;
+        if (visible && (rendered || gui_frames_ > 0)) {
+            draw();
+            gui_frames_ = std::max(gui_frames_ - 1, 0);
+            later_shown_ = true;
+        }
+        if (rendered) {
+            ui_.frame_ms.push_back(float(1000 * (seconds_now() - start)));
+            if (ui_.frame_ms.size() > k_kept_frames) ui_.frame_ms.erase(ui_.frame_ms.begin());
+        }
+    }
+    if (!options_.capture_on_exit.empty()) write_picture(*session_, options_.capture_on_exit);
+}
+
+bool ViewerApp::finished() const {
+    return options_.frames > 0 && rendered_ >= options_.frames;
+}
+
+void ViewerApp::wait() {
+    bool visible = window_->framebuffer_size().x > 0;
+    bool at_once = ui_.redraw_frames > 0 || ui_.render_always || ui_.window.capture.recording || ui_.single_step ||
+                   options_.frames > 0 || !ui_.window.later.empty() || viewport_.busy() ||
+                   (visible && gui_frames_ > 0);
+    if (at_once) return window_->poll_events();
+    double now = seconds_now();
+    double until = next_poll_;
+    if (!ui_.paused) until = std::min(until, next_play_);
+    if (fitting_.x > 0) until = std::min(until, fitting_since_ + k_settle_time);
+    if (until <= now) window_->poll_events();
+    else window_->wait_events(until - now);
+}
+
+/// Bad input costs a line in the status bar and the log, never the program.
+void ViewerApp::attempt(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        ui_.say(error.what(), true);
+        spdlog::error("{}", error.what());
+        gui_frames_ = 3;
+    }
+}
+
+void ViewerApp::hear() {
+    if (window_->take_activity() || viewport_.busy() || ImGui::IsAnyItemActive()) gui_frames_ = 3;
+    if (window_->take_scale_change()) make_interface();
+    PanelContext panels = context();
+    for (const std::string& chord : window_->take_keys()) obey(chord);
+    for (const std::string& path : window_->take_dropped_files()) ask_for_file(panels, path);
+    run_later_actions();
+    double now = seconds_now();
+    if (now < next_poll_) return;
+    next_poll_ = now + k_poll_interval;
+    attempt([&] {
+        if (session_->poll_files()) ui_.redraw();
+    });
+}
+
+void ViewerApp::run_later_actions() {
+    if (ui_.window.later.empty()) {
+        later_shown_ = false;
+        return;
+    }
+    if (!later_shown_) {
+        gui_frames_ = std::max(gui_frames_, 2); // first show what will be done
+        if (window_->framebuffer_size().x > 0) return;
+    }
+    later_shown_ = false;
+    for (const auto& action : std::exchange(ui_.window.later, {})) attempt(action);
+    gui_frames_ = 3;
+}
+
+bool ViewerApp::time_to_advance() {
+    if (std::exchange(ui_.single_step, false)) {
+        ui_.paused = true;
+        return true;
+    }
+    if (ui_.window.capture.recording) return ui_.window.capture.written > 0;
+    if (ui_.paused) return false;
+    // Playing keeps the shot's pace where the machine can; where it cannot, no frame is left out.
+    double now = seconds_now();
+    if (now < next_play_) return false;
+    double interval = 1.0 / double(session_->shot().fps);
+    next_play_ = next_play_ + interval < now ? now + interval : next_play_ + interval;
+    return true;
+}
+
+void ViewerApp::fit_picture() {
+    const PictureSizing& sizing = ui_.window.sizing;
+    glm::vec2 whole(session_->shot().width, session_->shot().height);
+    if (sizing.fit) {
+        float scale = window_->content_scale() * ui_.window.interface_scale;
+        glm::ivec2 display = window_->size();
+        Areas areas = arrange(ui_.window.layout, {float(display.x), float(display.y)}, scale, ui_.show_log);
+        whole = glm::vec2(areas.viewport.size.x, areas.viewport.size.y) * window_->pixel_ratio();
+    } else if (sizing.fixed.x > 0 && sizing.fixed.y > 0) {
+        whole = glm::vec2(sizing.fixed);
+    }
+    glm::ivec2 size = glm::clamp(glm::ivec2(glm::round(whole * sizing.scale)), glm::ivec2(1), glm::ivec2(16384));
+    if (size == session_->size()) {
+        fitting_ = glm::ivec2(0);
+        return;
+    }
+    double now = seconds_now();
+    if (size != fitting_) {
+        fitting_ = size;
+        fitting_since_ = now;
+    }
+    // While a border is dragged, the picture is stretched; it is made anew when the size has settled.
+    if (rendered_ > 0 && sizing.fit && now - fitting_since_ < k_settle_time) return;
+    fitting_ = glm::ivec2(0);
+    session_->resize(size);
+    ui_.redraw();
+}
+
+bool ViewerApp::render_if_wanted() {
+    if (window_->framebuffer_size().x > 0) fit_picture();
+    bool advance = time_to_advance();
+    bool wanted = advance || ui_.redraw_frames > 0 || ui_.render_always || ui_.window.capture.recording || options_.frames > 0;
+    if (!wanted) return false;
+    if (advance) session_->advance();
+    ui_.redraw_frames = std::max(ui_.redraw_frames - 1, 0);
+    render();
+    return true;
+}
+
+void ViewerApp::render() {
+    attempt([&] { session_->render(); });
+    ++rendered_;
+    tell_problems();
+    if (!ui_.window.capture.recording) return;
+    PanelContext panels = context();
+    attempt([&] { record_frame(panels); });
+}
+
+/// Says once when shaders or the graph break, and when they are whole again.
+void ViewerApp::tell_problems() {
+    std::string text;
+    for (const GraphProblem& problem : session_->graph().problems()) text += problem.error.text() + "\n";
+    if (text == problems_) return;
+    if (text.empty()) ui_.say("everything compiles again");
+    else ui_.say(text, true);
+    problems_ = text;
+    gui_frames_ = 3;
+}
+
+void ViewerApp::recover_from_reset() {
+    reset_simulated_ = reset_simulated_ || rendered_ == options_.simulate_reset;
+    spdlog::warn("the GPU was reset: the window and everything on the GPU are made again");
+    session_->release_gpu();
+    viewport_.release_gpu();
+    window_->make_again();
+    make_interface();
+    session_->restore_gpu();
+    ui_.say("the GPU was reset, and everything on it was made again", true);
+    ui_.redraw();
+    gui_frames_ = 3;
+}
+
+} // namespace bounce

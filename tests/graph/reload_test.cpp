@@ -1,0 +1,241 @@
+// A running graph outlives every edit: the last good program and the last good plan stay.
+#include "graph/graph_test.h"
+
+using namespace bounce;
+using testing::AllOf;
+using testing::Each;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace {
+const char* const k_graph =
+    R"("resources":{"a.image":{"format":"rgba32f","size":[4,4]}},"passes":[{"id":"fill","type":"compute","shader":"fill.comp"}])";
+}
+
+class Reload : public GraphTest {
+  protected:
+    float red(const GraphRunner& run) { return run.read("a.image")[0]; }
+    void next(GraphRunner& run) {
+        run.graph.poll_files();
+        run.frame();
+    }
+};
+
+TEST_F(Reload, BrokenFixedBrokenFixed) {
+    fill_shader("fill.comp", "a_image", "1");
+    GraphRunner run(graph_file(k_graph));
+    run.frame();
+    EXPECT_EQ(red(run), 1);
+    fill_shader("fill.comp", "a_image", "undeclared");
+    next(run);
+    EXPECT_EQ(red(run), 1) << "the last good program stays";
+    EXPECT_THAT(run.problems(), AllOf(HasSubstr("fill.comp:7: "), HasSubstr("undeclared"),
+                                      HasSubstr("imageStore(a_image, p, vec4(undeclared));")));
+    EXPECT_TRUE(run.graph.pass_is_stale("fill"));
+    fill_shader("fill.comp", "a_image", "2");
+    next(run);
+    EXPECT_EQ(red(run), 2);
+    EXPECT_EQ(run.problems(), "");
+    EXPECT_FALSE(run.graph.pass_is_stale("fill"));
+    root.save_by_rename("glsl/fill.comp", "oops");
+    next(run);
+    EXPECT_EQ(red(run), 2);
+    EXPECT_NE(run.problems(), "");
+    fill_shader("fill.comp", "a_image", "3");
+    next(run);
+    EXPECT_EQ(red(run), 3);
+    EXPECT_EQ(run.problems(), "");
+}
+
+/// A new plan (a slider, a resize) reads the shaders again; the text that is wrong is still wrong.
+TEST_F(Reload, AnErrorStaysUntilItsTextChanges) {
+    fill_shader("fill.comp", "a_image", "gain", "uniform float gain = 1.0; //! [0, 9] gain");
+    GraphRunner run(graph_file(k_graph));
+    run.frame();
+    fill_shader("fill.comp", "a_image", "gain + undeclared", "uniform float gain = 1.0; //! [0, 9] gain");
+    next(run);
+    EXPECT_THAT(run.problems(), HasSubstr("undeclared"));
+    run.graph.model().set("fill.gain", "5", ParameterOrigin::panel);
+    run.graph.touch();
+    run.frame();
+    EXPECT_EQ(red(run), 5);
+    EXPECT_THAT(run.problems(), HasSubstr("undeclared"));
+    EXPECT_TRUE(run.graph.pass_is_stale("fill"));
+    run.size = {32, 32};
+    run.frame();
+    EXPECT_THAT(run.problems(), HasSubstr("undeclared"));
+}
+
+TEST_F(Reload, ABrokenIncludeBreaksBothThatShareIt) {
+    root.write("glsl/lib/shared.glsl", "float shared_value() { return 4.0; }\n");
+    fill_shader("fill.comp", "a_image", "shared_value()", "#include \"lib/shared.glsl\"");
+    fill_shader("other.comp", "a_other", "10.0 * shared_value()", "#include \"lib/shared.glsl\"");
+    GraphRunner run(graph_file(R"("resources":{"a.image":{"format":"rgba32f"},"a.other":{"format":"rgba32f"}},
+        "passes":[{"id":"fill","type":"compute","shader":"fill.comp"},{"id":"other","type":"compute","shader":"other.comp"}])"));
+    run.frame();
+    root.write("glsl/lib/shared.glsl", "// one line more\nfloat shared_value() { return nonsense; }\n");
+    next(run);
+    std::set<std::string> broken;
+    for (const GraphProblem& problem : run.graph.problems())
+        broken.insert(problem.where);
+    EXPECT_THAT(broken, testing::ElementsAre("pass fill", "pass other"));
+    for (const GraphProblem& problem : run.graph.problems()) {
+        EXPECT_EQ(problem.error.file, "lib/shared.glsl");
+        EXPECT_EQ(problem.error.line, 2);
+        EXPECT_EQ(problem.error.source_line, "float shared_value() { return nonsense; }");
+    }
+    EXPECT_EQ(red(run), 4);
+    root.write("glsl/lib/shared.glsl", "float shared_value() { return 5.0; }\n");
+    next(run);
+    EXPECT_EQ(run.problems(), "");
+    EXPECT_EQ(red(run), 5);
+    EXPECT_EQ(run.read("a.other")[0], 50);
+}
+
+TEST_F(Reload, AnIncludeThatVanishesAndComesBack) {
+    root.write("glsl/lib/shared.glsl", "float shared_value() { return 4.0; }\n");
+    fill_shader("fill.comp", "a_image", "shared_value()", "#include \"lib/shared.glsl\"");
+    GraphRunner run(graph_file(k_graph));
+    run.frame();
+    root.remove("glsl/lib/shared.glsl");
+    next(run);
+    EXPECT_EQ(red(run), 4);
+    EXPECT_THAT(run.problems(), AllOf(HasSubstr("fill.comp:2: "), HasSubstr("shared.glsl"), HasSubstr("#include")));
+    root.write("glsl/lib/shared.glsl", "float shared_value() { return 6.0; }\n");
+    next(run);
+    EXPECT_EQ(red(run), 6);
+    EXPECT_EQ(run.problems(), "");
+}
+
+TEST_F(Reload, AWholeShaderThatVanishesAndComesBackKeepsItsValues) {
+    fill_shader("fill.comp", "a_image", "gain", "uniform float gain = 1.0; //! [0, 9] gain");
+    GraphRunner run(graph_file(k_graph));
+    run.frame();
+    run.graph.model().set("fill.gain", "5", ParameterOrigin::command_line);
+    root.remove("glsl/fill.comp");
+    next(run);
+    EXPECT_NE(run.problems(), "");
+    EXPECT_EQ(red(run), 5) << "the last good plan and program go on";
+    fill_shader("fill.comp", "a_image", "gain * 10", "uniform float gain = 1.0; //! [0, 9] gain");
+    next(run);
+    EXPECT_EQ(run.problems(), "");
+    EXPECT_EQ(red(run), 50);
+}
+
+TEST_F(Reload, BrokenAtStartShowsMagentaAndNeutralUntilFixed) {
+    shader("fill.comp", "layout(FORMAT_a_image) writeonly uniform image2D a_image;\nlayout(FORMAT_a_count) writeonly "
+                        "uniform uimage2D a_count;\nvoid main() { nonsense; }\n");
+    GraphRunner run(graph_file(R"("resources":{"a.image":{"format":"rgba32f"},"a.count":{"format":"r32ui","neutral":3}},
+                               "passes":[{"id":"fill","type":"compute","shader":"fill.comp"}])"));
+    run.frame();
+    EXPECT_THAT(std::vector<float>(run.read("a.image")).front(), 1);
+    EXPECT_EQ(run.read("a.image")[1], 0);
+    EXPECT_EQ(run.read("a.image")[2], 1);
+    EXPECT_THAT(run.read("a.count"), Each(3));
+    EXPECT_NE(run.problems(), "");
+    fill_shader("fill.comp", "a_image", "2", "layout(FORMAT_a_count) writeonly uniform uimage2D a_count;");
+    next(run);
+    EXPECT_EQ(run.problems(), "");
+    EXPECT_EQ(red(run), 2);
+}
+
+TEST_F(Reload, ANewParameterAppearsWithItsRangeAndValuesSurviveByNameAndType) {
+    fill_shader("fill.comp", "a_image", "gain", "uniform float gain = 1.0; //! [0, 9] gain");
+    GraphRunner run(graph_file(k_graph));
+    run.frame();
+    run.graph.model().set("fill.gain", "7", ParameterOrigin::panel);
+    fill_shader("fill.comp", "a_image", "gain + bias",
+                "uniform float gain = 1.0; //! [0, 9] gain\nuniform int bias = 2; //! [1, 3] (steps) added");
+    next(run);
+    EXPECT_EQ(red(run), 9);
+    const Parameter& bias = run.graph.model().parameter("fill.bias");
+    EXPECT_EQ(range_text(bias.info), "[1, 3]");
+    EXPECT_EQ(bias.info.unit, "steps");
+    EXPECT_EQ(bias.info.help, "added");
+    fill_shader("fill.comp", "a_image", "gain + bias",
+                "uniform int gain = 1; //! [0, 9] gain\nuniform int bias = 2; //! [1, 3] added");
+    next(run);
+    EXPECT_EQ(red(run), 3) << "of another type: its default";
+    fill_shader("fill.comp", "a_image", "0.5");
+    next(run);
+    EXPECT_THAT(run.graph.model().parameter_names(), Not(testing::Contains("fill.gain")));
+}
+
+TEST_F(Reload, AStaticParameterIsCompiledInAndRecompiledWhenItChanges) {
+    fill_shader("fill.comp", "a_image", "sum()",
+                "uniform int steps = 2; //! static [1, 8] steps\nfloat sum() { float a[steps]; float s = 0.0; for (int "
+                "i = 0; i < steps; ++i) { a[i] = 1.0; s += a[i]; } return s; }");
+    GraphRunner run(graph_file(k_graph));
+    run.frame();
+    EXPECT_EQ(run.problems(), "");
+    EXPECT_EQ(red(run), 2);
+    GLuint before = run.graph.model().nodes()[0]->programs[0]->id();
+    run.graph.model().set("fill.steps", "6", ParameterOrigin::panel);
+    run.graph.touch();
+    run.frame();
+    EXPECT_EQ(red(run), 6);
+    EXPECT_NE(run.graph.model().nodes()[0]->programs[0]->id(), before);
+}
+
+TEST_F(Reload, AGraphFileEditedWhileRunning) {
+    fill_shader("fill.comp", "a_image", "gain", "uniform float gain = 1.0; //! [0, 9] gain");
+    fill_shader("more.comp", "a_more", "texelFetch(a_image, ivec2(0), 0).r * 10", "uniform sampler2D a_image;");
+    auto file = graph_file(k_graph);
+    GraphRunner run(file);
+    run.frame();
+    GLuint program = run.graph.model().find_node("fill")->programs[0]->id();
+    run.graph.model().set("fill.gain", "4", ParameterOrigin::panel);
+    std::string more =
+        R"("resources":{"a.image":{"format":"rgba32f","size":[4,4]},"a.more":{"format":"r32f","size":[2,2]}},
+        "passes":[{"id":"fill","type":"compute","shader":"fill.comp"},{"id":"more","type":"compute","shader":"more.comp"}])";
+    graph_file(more);
+    next(run);
+    EXPECT_EQ(run.problems(), "");
+    EXPECT_EQ(run.read("a.more")[0], 40) << "a compute pass dropped in, values kept";
+    EXPECT_EQ(run.graph.model().find_node("fill")->programs[0]->id(), program) << "not compiled again";
+
+    for (
+        const char* bad :
+        {R"("passes":[{)", R"("passes":[{"id":"fill","type":"nonsense"}])",
+         R"("passes":[{"id":"more","type":"compute","shader":"more.comp"}])",
+         R"("resources":{"a.image":{"format":"rgba32f","size":[100000,100000]}},"passes":[{"id":"fill","type":"compute","shader":"fill.comp"}])",
+         R"("resources":{"a.image":{"format":"rgba32f"}},"passes":[{"id":"fill","type":"compute","shader":"fill.comp","dispatch":["nonsense"]}])"}) {
+        graph_file(bad);
+        next(run);
+        EXPECT_EQ(run.graph.plan().passes.size(), 2u) << bad;
+        EXPECT_EQ(run.read("a.more")[0], 40) << bad;
+        EXPECT_NE(run.problems(), "") << bad;
+        run.frame(2); // and it goes on
+    }
+    graph_file(k_graph);
+    next(run);
+    EXPECT_EQ(run.problems(), "");
+    EXPECT_EQ(run.graph.plan().passes.size(), 1u);
+    EXPECT_EQ(red(run), 4);
+}
+
+TEST_F(Reload, AProgramThatHungTheGpuStaysDisabledUntilItIsEdited) {
+    fill_shader("fill.comp", "a_image", "2");
+    GraphRunner run(graph_file(k_graph));
+    run.frame();
+    run.graph.disable_programs(run.graph.newest_program_files());
+    run.frame();
+    EXPECT_EQ(run.read("a.image")[1], 0) << "magenta";
+    EXPECT_THAT(run.problems(), HasSubstr("it hung the GPU"));
+    run.graph.touch();
+    run.frame();
+    EXPECT_EQ(run.read("a.image")[1], 0) << "a new plan does not bring it back";
+    fill_shader("fill.comp", "a_image", "3");
+    next(run);
+    EXPECT_EQ(red(run), 3);
+    EXPECT_EQ(run.problems(), "");
+}
+
+TEST_F(Reload, UniformsWithoutSourceAreAnError) {
+    fill_shader("fill.comp", "a_image", "stranger + resolution.x",
+                "uniform float stranger;\nuniform ivec2 resolution;");
+    GraphRunner run(graph_file(k_graph));
+    run.frame();
+    EXPECT_THAT(run.problems(), AllOf(HasSubstr("uniform 'stranger' has no source"),
+                                      HasSubstr("'resolution' is a constant of the frame, of another type")));
+}
