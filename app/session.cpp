@@ -30,7 +30,7 @@ Session::~Session() = default;
 void Session::load_scene_to_gpu() {
     facts_ = shot_facts(*shot_);
     gpu_scene_ = std::make_unique<GpuScene>(shot_->scene, shot_->environment);
-    scene_dirty_ = true;
+    scene_edited();
     has_last_view_ = false;
 }
 

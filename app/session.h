@@ -41,7 +41,12 @@ class Session {
     const SessionOptions& options() const { return options_; }
 
     /// After an edit of shot().scene.lights, nodes, materials or the environment.
-    void scene_edited() { scene_dirty_ = true; }
+    void scene_edited() {
+        scene_dirty_ = true;
+        ++edits_;
+    }
+    /// Grows with every edit and every scene that is opened.
+    uint64_t edits() const { return edits_; }
 
     // --- time ---
     int frame() const { return frame_; }
@@ -98,6 +103,7 @@ class Session {
     int frame_ = 0;
     int rendered_frame_ = -1;
     bool scene_dirty_ = true;
+    uint64_t edits_ = 0;
 
     std::vector<std::pair<std::string, std::string>> kept_parameters_; ///< while the GPU is lost
     std::vector<std::filesystem::path> suspects_;

@@ -1,10 +1,12 @@
 #pragma once
-// What panels share. A panel is a function that draws itself from data that it does not own: the session, and this state.
+// What panels share. A panel is a function that draws itself from data that it does not own: the session, and this
+// state.
 
 #include "app/session.h"
 #include "app/ui/window_state.h"
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,13 +14,13 @@ namespace bounce {
 
 /// How the resource viewer shows a texture.
 struct ViewerSettings {
-    std::string resource;  ///< "" = out.display
+    std::string resource; ///< "" = out.display
     int mip = 0;
-    int layer = 0;         ///< layer of an array, slice of a 3D texture
-    int channel = 0;       ///< 0 = RGB, 1 … 4 = one of R G B A, 5 = length of RGB
+    int layer = 0;           ///< layer of an array, slice of a 3D texture
+    int channel = 0;         ///< 0 = RGB, 1 … 4 = one of R G B A, 5 = length of RGB
     float low = 0, high = 1; ///< mapped to black and white
     bool automatic_range = false;
-    bool encode_srgb = true; ///< linear values are encoded for the display
+    bool encode_srgb = true;     ///< linear values are encoded for the display
     bool mark_non_finite = true; ///< NaN magenta, infinities yellow
     bool logarithmic = false;    ///< equal ratios between low and high are equal steps
 };
@@ -32,11 +34,13 @@ struct BufferSettings {
 
 /// A parameter under the mouse: from press to release is one step of undo.
 struct ParameterEdit {
-    std::string name;   ///< "direct.normal_offset"; "" = none
-    std::string before; ///< its text when the edit began
+    std::string name;                                        ///< "direct.normal_offset"; "" = none
+    std::string before;                                      ///< its text when the edit began
     ParameterOrigin origin = ParameterOrigin::default_value; ///< who had set it then
     ParameterValue value; ///< as the widget has it (compiled-in parameters are applied at the end)
 };
+
+class Comparison;
 
 /// State of the window that is no part of the session.
 struct UiState {
@@ -50,10 +54,10 @@ struct UiState {
     std::string parameter_filter;         ///< of the parameters panel
     bool only_changed_parameters = false; ///< likewise
 
-    bool paused = true;       ///< time stands still (a still shot needs no clock)
-    bool single_step = false; ///< advance one frame, then pause
+    bool paused = true;         ///< time stands still (a still shot needs no clock)
+    bool single_step = false;   ///< advance one frame, then pause
     bool render_always = false; ///< render every frame even when nothing changed
-    int redraw_frames = 2;    ///< frames that are still to be rendered because something changed
+    int redraw_frames = 2;      ///< frames that are still to be rendered because something changed
 
     glm::ivec2 cursor_pixel{-1}; ///< of the picture, row 0 at the top; −1 outside
     glm::vec2 cursor_uv{-1};     ///< the same place as a share of width and height, for resources of other sizes
@@ -62,6 +66,9 @@ struct UiState {
     std::vector<float> frame_ms; ///< CPU time of the last frames, newest last
     std::string notice;          ///< one line for the status bar
     bool notice_is_error = false;
+
+    std::shared_ptr<Comparison> comparison; ///< made when its panel is first opened
+    bool redraw_panels = false;             ///< set each frame by panels that move by themselves (progress, flicker)
 
     bool show_keys = false, show_log = false;
     WindowState window;
@@ -107,6 +114,7 @@ void draw_inspector_panel(PanelContext& context);  ///< exact values under the c
 void draw_scene_panel(PanelContext& context);      ///< shot, scene facts, lights, materials, environment
 void draw_camera_panel(PanelContext& context);     ///< camera, bookmarks, time
 void draw_capture_panel(PanelContext& context);    ///< PNG, EXR, numbered frames, shot and command line, graph preset
+void draw_compare_panel(PanelContext& context);    ///< reference, split, error, the live point on a chart
 void draw_log_panel(PanelContext& context);
 void draw_keys_panel(PanelContext& context);
 

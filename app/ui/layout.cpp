@@ -89,8 +89,7 @@ bool begin_area(const char* name, const Area& area, ImGuiWindowFlags flags) {
     ImGui::SetNextWindowSize(area.size);
     return ImGui::Begin(name, nullptr,
                         ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                            ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                            ImGuiWindowFlags_NoBringToFrontOnFocus | flags);
+                            ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings | flags);
 }
 
 } // namespace bounce

@@ -1,4 +1,5 @@
 #include "app/ui/viewer_app.h"
+#include "app/ui/comparison.h"
 
 #include "app/capture.h"
 #include "app/ui/open.h"
@@ -55,6 +56,7 @@ ViewerApp::~ViewerApp() {
         save_window_state(ui_.window);
     }
     viewport_.release_gpu();
+    ui_.comparison.reset();
     session_.reset();
 }
 

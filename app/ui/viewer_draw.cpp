@@ -17,7 +17,7 @@ struct Tab {
     void (*draw)(PanelContext&);
 };
 
-const std::vector<Tab> k_left = {{"Scene", draw_scene_panel}, {"Camera", draw_camera_panel}, {"Capture", draw_capture_panel}};
+const std::vector<Tab> k_left = {{"Scene", draw_scene_panel}, {"Camera", draw_camera_panel}, {"Compare", draw_compare_panel}, {"Capture", draw_capture_panel}};
 const std::vector<Tab> k_upper = {{"Graph", draw_graph_panel}, {"Resources", draw_resources_panel}, {"Shaders", draw_shaders_panel}};
 const std::vector<Tab> k_lower = {{"Parameters", draw_parameters_panel}, {"Pixel", draw_inspector_panel}};
 

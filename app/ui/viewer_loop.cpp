@@ -1,6 +1,7 @@
 // One turn of the loop: wait, hear, render what changed.
 #include "app/capture.h"
 #include "app/ui/captures.h"
+#include "app/ui/comparison.h"
 #include "app/ui/open.h"
 #include "app/ui/style.h"
 #include "app/ui/viewer_app.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <utility>
 
 namespace bounce {
 
@@ -20,9 +22,9 @@ double seconds_now() {
     return duration<double>(steady_clock::now().time_since_epoch()).count();
 }
 
-constexpr double k_poll_interval = 0.2;  ///< of watched files
-constexpr double k_settle_time = 0.15;   ///< of the viewport's size, before everything is allocated again
-constexpr size_t k_kept_frames = 240;    ///< of the history of frame times
+constexpr double k_poll_interval = 0.2; ///< of watched files
+constexpr double k_settle_time = 0.15;  ///< of the viewport's size, before everything is allocated again
+constexpr size_t k_kept_frames = 240;   ///< of the history of frame times
 
 /// Ctrl+C in the terminal closes the window as its button does, so that its state is kept.
 volatile std::sig_atomic_t asked_to_quit = 0;
@@ -38,7 +40,8 @@ void ViewerApp::run() {
     ui_.redraw();
     while (!window_->should_close() && !asked_to_quit && !finished()) {
         wait();
-        if (window_->gpu_was_reset() || (rendered_ == options_.simulate_reset && !reset_simulated_)) recover_from_reset();
+        if (window_->gpu_was_reset() || (rendered_ == options_.simulate_reset && !reset_simulated_))
+            recover_from_reset();
         hear();
         double start = seconds_now();
         bool rendered = render_if_wanted();
@@ -63,15 +66,17 @@ bool ViewerApp::finished() const {
 void ViewerApp::wait() {
     bool visible = window_->framebuffer_size().x > 0;
     bool at_once = ui_.redraw_frames > 0 || ui_.render_always || ui_.window.capture.recording || ui_.single_step ||
-                   options_.frames > 0 || !ui_.window.later.empty() || viewport_.busy() ||
-                   (visible && gui_frames_ > 0);
+                   options_.frames > 0 || !ui_.window.later.empty() || viewport_.busy() || (visible && gui_frames_ > 0);
     if (at_once) return window_->poll_events();
     double now = seconds_now();
     double until = next_poll_;
     if (!ui_.paused) until = std::min(until, next_play_);
+    if (ui_.redraw_panels) until = std::min(until, now + 0.1);
     if (fitting_.x > 0) until = std::min(until, fitting_since_ + k_settle_time);
-    if (until <= now) window_->poll_events();
-    else window_->wait_events(until - now);
+    if (until <= now)
+        window_->poll_events();
+    else
+        window_->wait_events(until - now);
 }
 
 /// Bad input costs a line in the status bar and the log, never the program.
@@ -87,10 +92,13 @@ void ViewerApp::attempt(const std::function<void()>& action) {
 
 void ViewerApp::hear() {
     if (window_->take_activity() || viewport_.busy() || ImGui::IsAnyItemActive()) gui_frames_ = 3;
+    if (std::exchange(ui_.redraw_panels, false)) gui_frames_ = std::max(gui_frames_, 1);
     if (window_->take_scale_change()) make_interface();
     PanelContext panels = context();
-    for (const std::string& chord : window_->take_keys()) obey(chord);
-    for (const std::string& path : window_->take_dropped_files()) ask_for_file(panels, path);
+    for (const std::string& chord : window_->take_keys())
+        obey(chord);
+    for (const std::string& path : window_->take_dropped_files())
+        ask_for_file(panels, path);
     run_later_actions();
     double now = seconds_now();
     if (now < next_poll_) return;
@@ -110,7 +118,8 @@ void ViewerApp::run_later_actions() {
         if (window_->framebuffer_size().x > 0) return;
     }
     later_shown_ = false;
-    for (const auto& action : std::exchange(ui_.window.later, {})) attempt(action);
+    for (const auto& action : std::exchange(ui_.window.later, {}))
+        attempt(action);
     gui_frames_ = 3;
 }
 
@@ -160,7 +169,8 @@ void ViewerApp::fit_picture() {
 bool ViewerApp::render_if_wanted() {
     if (window_->framebuffer_size().x > 0) fit_picture();
     bool advance = time_to_advance();
-    bool wanted = advance || ui_.redraw_frames > 0 || ui_.render_always || ui_.window.capture.recording || options_.frames > 0;
+    bool wanted =
+        advance || ui_.redraw_frames > 0 || ui_.render_always || ui_.window.capture.recording || options_.frames > 0;
     if (!wanted) return false;
     if (advance) session_->advance();
     ui_.redraw_frames = std::max(ui_.redraw_frames - 1, 0);
@@ -180,10 +190,13 @@ void ViewerApp::render() {
 /// Says once when shaders or the graph break, and when they are whole again.
 void ViewerApp::tell_problems() {
     std::string text;
-    for (const GraphProblem& problem : session_->graph().problems()) text += problem.error.text() + "\n";
+    for (const GraphProblem& problem : session_->graph().problems())
+        text += problem.error.text() + "\n";
     if (text == problems_) return;
-    if (text.empty()) ui_.say("everything compiles again");
-    else ui_.say(text, true);
+    if (text.empty())
+        ui_.say("everything compiles again");
+    else
+        ui_.say(text, true);
     problems_ = text;
     gui_frames_ = 3;
 }
@@ -193,6 +206,7 @@ void ViewerApp::recover_from_reset() {
     spdlog::warn("the GPU was reset: the window and everything on the GPU are made again");
     session_->release_gpu();
     viewport_.release_gpu();
+    if (ui_.comparison) ui_.comparison->release_gpu();
     window_->make_again();
     make_interface();
     session_->restore_gpu();

@@ -1,6 +1,7 @@
 #include "app/ui/viewport.h"
 
 #include "app/hosts/window.h"
+#include "app/ui/comparison.h"
 #include "app/ui/style.h"
 #include "app/ui/widget_rects.h"
 #include "core/error.h"
@@ -25,6 +26,15 @@ void Viewport::release_gpu() {
 
 const GpuTexture* Viewport::texture_to_show(PanelContext& context) {
     const Graph& graph = context.session.graph();
+    bool plain = context.ui.hovered.empty() && context.ui.pinned.empty();
+    if (context.ui.comparison && plain) {
+        if (const GpuTexture* pair = context.ui.comparison->picture(context.session, ImGui::GetTime())) {
+            shown_ = {};
+            drawn_frame_ = ~0ull;
+            failure_.clear();
+            return pair;
+        }
+    }
     ViewerSettings settings = shown_view(graph, context.ui);
     const GpuTexture* source = settings.resource.empty() ? nullptr : graph.texture(settings.resource);
     if (!source || !*source) {
@@ -65,7 +75,8 @@ Area Viewport::place_picture(const PanelContext& context, const Area& area, glm:
 void Viewport::zoom(PanelContext& context, const Area& area, const Area& picture) const {
     WindowState& window = context.ui.window;
     const ImGuiIO& io = ImGui::GetIO();
-    glm::vec2 mouse(io.MousePos.x, io.MousePos.y), min(picture.min.x, picture.min.y), size(picture.size.x, picture.size.y);
+    glm::vec2 mouse(io.MousePos.x, io.MousePos.y), min(picture.min.x, picture.min.y),
+        size(picture.size.x, picture.size.y);
     float before = window.image_zoom;
     float after = std::clamp(before * std::pow(1.25f, io.MouseWheel), 1.0f, 64.0f);
     if (after < 1.1f) after = 1;
@@ -138,11 +149,14 @@ void Viewport::overlay(PanelContext& context, const Area& area, const Area& pict
         glm::ivec3 size = mip_size(desc, shown_.mip);
         text = fmt::format("{}   {}×{}", shown_.resource, size.x, size.y);
         if (desc.mips > 1) text += fmt::format("   mip {}", shown_.mip);
-        if (size.z > 1) text += fmt::format("   {} {} of {}", desc.kind == TextureKind::texture_3d ? "slice" : "layer", shown_.layer, size.z);
+        if (size.z > 1)
+            text += fmt::format("   {} {} of {}", desc.kind == TextureKind::texture_3d ? "slice" : "layer",
+                                shown_.layer, size.z);
         text += fmt::format("   {}", format_by_enum(desc.format).name);
         if (ui.hovered.empty()) text += "   (Escape: the final picture)";
     }
-    if (ui.window.image_zoom > 1) text += fmt::format("{}×{:.3g} (Ctrl+0)", text.empty() ? "" : "   ", ui.window.image_zoom);
+    if (ui.window.image_zoom > 1)
+        text += fmt::format("{}×{:.3g} (Ctrl+0)", text.empty() ? "" : "   ", ui.window.image_zoom);
     if (!text.empty()) label({area.min.x + margin, area.min.y + margin}, text, {1, 1, 1, 1});
     if (ui.window.capture.recording) {
         std::string recording = fmt::format("● recording  {}", ui.window.capture.written);
@@ -179,10 +193,12 @@ void Viewport::draw(PanelContext& context, const Area& area, Window& window) {
     Area picture = place_picture(context, area, texels);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.085f, 0.085f, 0.085f, 1));
-    begin_area("##viewport", area, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
+    begin_area("##viewport", area,
+               ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
     ImGui::SetCursorScreenPos(area.min);
     ImGui::InvisibleButton("picture", area.size,
-                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                               ImGuiButtonFlags_MouseButtonMiddle);
     bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
     // A click takes the keyboard from a text field, so that keys mean the viewport again.
     if (ImGui::IsItemActivated()) ImGui::SetWindowFocus();
@@ -200,7 +216,8 @@ void Viewport::draw(PanelContext& context, const Area& area, Window& window) {
         ImGui::TextColored(k_error_colour, "%s", failure_.c_str());
         ImGui::PopTextWrapPos();
     }
-    note_rectangle("viewport", picture.min.x, picture.min.y, picture.min.x + picture.size.x, picture.min.y + picture.size.y);
+    note_rectangle("viewport", picture.min.x, picture.min.y, picture.min.x + picture.size.x,
+                   picture.min.y + picture.size.y);
     overlay(context, area, picture);
     ImGui::End();
     ImGui::PopStyleColor();

@@ -30,11 +30,6 @@ glm::vec3 triangle_cross(const TraceGeometry::Geometry& geometry, uint32_t trian
     return glm::cross(geometry.vertices[i[1]].position - a, geometry.vertices[i[2]].position - a);
 }
 
-float self_intersection_epsilon(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-    glm::vec3 most = glm::max(glm::max(glm::abs(a), glm::abs(b)), glm::abs(c));
-    return 4.0e-6f * std::max(most.x, std::max(most.y, most.z));
-}
-
 TraceGeometry::Corners TraceGeometry::corners(const Geometry& geometry, uint32_t triangle) const {
     const uint32_t* i = &geometry.indices[size_t(triangle) * 3];
     return {&geometry.vertices[i[0]], &geometry.vertices[i[1]], &geometry.vertices[i[2]]};

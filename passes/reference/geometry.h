@@ -4,6 +4,7 @@
 #include "reference/texture.h"
 #include "scene/shot.h"
 
+#include <algorithm>
 #include <embree3/rtcore.h>
 #include <memory>
 #include <tbb/cache_aligned_allocator.h>
@@ -138,6 +139,9 @@ inline Surface TraceGeometry::surface(const Hit& hit, const glm::vec3& ray_direc
 glm::vec3 triangle_cross(const TraceGeometry::Geometry& geometry, uint32_t triangle);
 /// By how much a ray must start off a triangle so as not to hit it: some rounding steps of its largest coordinate, so
 /// that a scaled scene is traced alike.
-float self_intersection_epsilon(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+inline float self_intersection_epsilon(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    glm::vec3 most = glm::max(glm::max(glm::abs(a), glm::abs(b)), glm::abs(c));
+    return 4.0e-6f * std::max(most.x, std::max(most.y, most.z));
+}
 
 } // namespace bounce

@@ -186,8 +186,8 @@ Integrator::~Integrator() = default;
 bool Integrator::extend(Path& path, const Surface& surface) {
     const int bounces = scene_.settings.bounces;
     path.sampler.start_block(path.block + uint32_t(2 * path.depth));
-    const glm::vec2 u = path.sampler.next_pair();
-    const float choice = path.sampler.next(), survival = path.sampler.next();
+    const glm::vec2 u = path.sampler.next_pair(), chances = path.sampler.next_pair();
+    const float choice = chances.x, survival = chances.y;
 
     const Lobes lobes(surface, -path.direction, scene_.diffuse_only);
     float gloss_share = 0;
@@ -222,7 +222,7 @@ bool Integrator::extend(Path& path, const Surface& surface) {
     path.throughput *= f * (nl / density);
     if (path.depth >= scene_.settings.roulette_depth) {
         const float most = std::max(path.throughput.r, std::max(path.throughput.g, path.throughput.b));
-        const float probability = std::min(0.95f, most);
+        const float probability = std::min(path.depth >= k_long_path ? 0.95f : 1.0f, most / k_roulette_throughput);
         if (!(survival < probability)) return false;
         path.throughput /= probability;
     }

@@ -38,13 +38,21 @@ class PunctualLights {
     }
 
   private:
-    bool soft(const Light& light) const {
-        return light.type == LightType::directional ? light.angular_radius > 0 : light.radius > 0;
-    }
+    struct Prepared {
+        LightType type;
+        glm::vec3 position, direction, intensity;
+        float inner_cone_cos, outer_cone_cos;
+        float radius;
+        float sin_squared; ///< of the angular radius
+        bool directional() const { return type == LightType::directional; }
+        bool soft() const { return directional() ? sin_squared > 0 : radius > 0; }
+        glm::vec3 irradiance(const glm::vec3& x, glm::vec3& l) const;
+        float cone_sin_squared(float distance_squared) const;
+    };
     bool meets(size_t i, const glm::vec3& origin, const glm::vec3& direction, float distance, glm::vec3& radiance,
                float& density) const;
 
-    std::vector<Light> lights_;
+    std::vector<Prepared> lights_;
     bool any_soft_ = false;
 };
 

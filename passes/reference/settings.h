@@ -8,6 +8,9 @@
 namespace bounce {
 
 constexpr int k_unlimited_bounces = -1;
+constexpr float k_roulette_throughput = 0.1f;
+/// From here on every bounce has a chance of being the last, so that paths end where nothing absorbs.
+constexpr int k_long_path = 64;
 
 struct ReferenceSettings {
     int bounces = k_unlimited_bounces; ///< scattering orders after the first; 0 = the first only, −1 = all

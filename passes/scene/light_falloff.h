@@ -8,14 +8,18 @@
 
 namespace bounce {
 
-/// The extension's own angular attenuation (1 for lights that are no spot); `to_point` is the unit direction from the
-/// light to the lit point.
+/// The extension's own angular attenuation, from the cosine of the angle off the axis and those of the cones.
+inline float spot_falloff(float cosine, float inner_cone_cos, float outer_cone_cos) {
+    float scale = 1.0f / std::max(0.001f, inner_cone_cos - outer_cone_cos);
+    float t = std::clamp((cosine - outer_cone_cos) * scale, 0.0f, 1.0f);
+    return t * t;
+}
+
+/// The same for a light (1 for lights that are no spot); `to_point` is the unit direction from the light to the lit
+/// point.
 inline float spot_falloff(const Light& light, const glm::vec3& to_point) {
     if (light.type != LightType::spot) return 1.0f;
-    float outer = std::cos(light.outer_cone);
-    float scale = 1.0f / std::max(0.001f, std::cos(light.inner_cone) - outer);
-    float t = std::clamp((glm::dot(light.direction, to_point) - outer) * scale, 0.0f, 1.0f);
-    return t * t;
+    return spot_falloff(glm::dot(light.direction, to_point), std::cos(light.inner_cone), std::cos(light.outer_cone));
 }
 
 /// The irradiance at normal incidence at x (W/m²) without occlusion; `l` becomes the unit direction from x to the

@@ -98,6 +98,7 @@ class PanelsTest : public testing::Test {
         frame();
     }
     void click(const std::string& name, int button = 0) {
+        frame(); // what was just changed is drawn
         point_at(name);
         frame();
         press(true, button);

@@ -13,6 +13,7 @@ using namespace bounce;
 namespace {
 
 constexpr double k_texels_from_rim = 2;
+constexpr double k_smallest_normal_half = 6.104e-5;
 
 struct Comparison {
     int lit = 0, shadowed = 0, unlit = 0, edge = 0, background = 0;
@@ -33,7 +34,8 @@ class DirectLight : public GpuTest {
         options.sets = {{"shadow_maps.resolution", std::to_string(shadow_resolution)}};
         Session session(options);
         session.render();
-        EXPECT_TRUE(session.graph().problems().empty());
+        for (const GraphProblem& problem : session.graph().problems())
+            ADD_FAILURE() << problem.error.text();
         std::vector<float> got = session.graph().texture("out.direct")->read();
         DirectOracle oracle(session.shot(), size, shadow_resolution);
         EXPECT_EQ(oracle.lights().size(), 1u);
@@ -89,7 +91,7 @@ class DirectLight : public GpuTest {
             break;
         case Kind::lit:
             // Where the light all but vanishes at a spot's rim, half floats have no relative precision left.
-            if (expected.radiance.r + expected.radiance.g + expected.radiance.b < 1e-4) break;
+            if (std::max({expected.radiance.r, expected.radiance.g, expected.radiance.b}) < k_smallest_normal_half) break;
             if (sum == 0) {
                 ++result.false_shadows;
                 result.worst_at = fmt::format("false shadow at {}, {} (cosine {:.3f})", x, y, expected.cosine);
@@ -98,7 +100,8 @@ class DirectLight : public GpuTest {
             ++result.lit;
             double error = 0;
             for (int c = 0; c < 3; ++c)
-                error = std::max(error, std::abs(rgb[c] / expected.radiance[c] - 1));
+                if (expected.radiance[c] >= k_smallest_normal_half)
+                    error = std::max(error, std::abs(rgb[c] / expected.radiance[c] - 1));
             result.sum += error;
             if (error > result.worst) {
                 result.worst = error;
@@ -148,14 +151,14 @@ TEST_P(OneLight, AmongBlocksIsExactAwayFromShadowEdges) {
     for (int resolution : {128, 512, 1024}) {
         Comparison result = compare(shot, {96, 96}, resolution);
         expect_exact(result, resolution < 512 ? 0.55 : 0.25);
-        EXPECT_GT(result.shadowed, resolution < 512 ? 20 : 150);
+        EXPECT_GT(result.shadowed, resolution < 512 ? 20 : 80);
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(Lights, OneLight,
                          testing::Values(std::pair{"spot", k_spot}, std::pair{"point", k_point},
                                          std::pair{"directional", k_sun}),
-                         [](auto& info) { return info.param.first; });
+                         [](auto& test) { return test.param.first; });
 
 /// Faces that look straight at a light that stands off a shadow map's axis: the map's texels lie aslant on them all the
 /// same.

@@ -32,7 +32,7 @@ std::string refusal(const ParameterInfo& info, std::string_view value) {
     return error_of([&] { parse_value(info, value); });
 }
 
-std::string refusal(const ParameterInfo& info, const json& value) {
+std::string json_refusal(const ParameterInfo& info, const json& value) {
     return error_of([&] { parse_value(info, value); });
 }
 
@@ -77,11 +77,11 @@ TEST(Parameters, WhatIsNoValueIsToldWithWhatWouldBe) {
     EXPECT_THAT(refusal(of(vec3), "1,2"), HasSubstr("three numbers (x,y,z)"));
     EXPECT_THAT(refusal(of(vec2), "1,,2"), HasSubstr("two numbers (x,y)"));
     for (const json& bad : {json(1), json(nullptr), json("yes"), json::object()})
-        EXPECT_THAT(refusal(of(boolean), bad), HasSubstr("true or false")) << bad;
+        EXPECT_THAT(json_refusal(of(boolean), bad), HasSubstr("true or false")) << bad;
     for (const json& bad : {json(true), json(nullptr), json::array({1}), json::object()})
-        EXPECT_THAT(refusal(of(real), bad), HasSubstr("a number")) << bad;
-    EXPECT_THAT(refusal(of(vec3), json::array({1, "2", 3})), HasSubstr("three numbers"));
-    EXPECT_THAT(refusal(of(vec3), json::array()), HasSubstr("three numbers"));
+        EXPECT_THAT(json_refusal(of(real), bad), HasSubstr("a number")) << bad;
+    EXPECT_THAT(json_refusal(of(vec3), json::array({1, "2", 3})), HasSubstr("three numbers"));
+    EXPECT_THAT(json_refusal(of(vec3), json::array()), HasSubstr("three numbers"));
 }
 
 TEST(Parameters, RangesAreInclusiveAndOfEachComponent) {
@@ -91,7 +91,7 @@ TEST(Parameters, RangesAreInclusiveAndOfEachComponent) {
     EXPECT_EQ(refusal(real, "2.5"), "'2.5' is out of range for parameter 'p': it takes a number [0.1, 2]");
     EXPECT_THAT(refusal(real, "0.0999"), HasSubstr("out of range"));
     EXPECT_THAT(refusal(of(ParameterKind::vec3, 0, 1), "0,1,1.01"), HasSubstr("out of range"));
-    EXPECT_THAT(refusal(of(ParameterKind::integer, 1, 8), json(9)), HasSubstr("[1, 8]"));
+    EXPECT_THAT(json_refusal(of(ParameterKind::integer, 1, 8), json(9)), HasSubstr("[1, 8]"));
 }
 
 TEST(Parameters, JsonAndTextReadBackAsTheSameValue) {

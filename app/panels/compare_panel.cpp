@@ -1,0 +1,143 @@
+// The Compare panel: the picture against the truth.
+#include "app/experiments/chart.h"
+#include "app/panels/panel.h"
+#include "app/ui/comparison.h"
+#include "app/ui/widget_rects.h"
+#include "core/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace bounce {
+
+/// Error against time, both logarithmic: earlier points, and the present one in the accent colour.
+static void draw_points(const Comparison& comparison, const ComparePoint& live) {
+    std::vector<ComparePoint> all = comparison.points;
+    all.push_back(live);
+    double low_x = 1e30, high_x = 0, low_y = 1e30, high_y = 0;
+    for (const ComparePoint& p : all) {
+        if (!(p.ms > 0) || !(p.relative_rmse > 0)) continue;
+        low_x = std::min(low_x, p.ms), high_x = std::max(high_x, p.ms);
+        low_y = std::min(low_y, p.relative_rmse), high_y = std::max(high_y, p.relative_rmse);
+    }
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 10);
+    ImGui::InvisibleButton("points", size);
+    note_widget("compare.points");
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(at, {at.x + size.x, at.y + size.y}, IM_COL32(20, 20, 20, 255));
+    if (high_x <= 0) return;
+    low_x *= 0.7, high_x *= 1.4, low_y *= 0.7, high_y *= 1.4;
+    auto place = [&](const ComparePoint& p) {
+        float x = float(std::log(p.ms / low_x) / std::log(high_x / low_x)),
+              y = float(std::log(p.relative_rmse / low_y) / std::log(high_y / low_y));
+        return ImVec2(at.x + x * size.x, at.y + (1 - y) * size.y);
+    };
+    const ComparePoint* hovered = nullptr;
+    for (size_t i = 0; i < all.size(); ++i) {
+        const ComparePoint& p = all[i];
+        if (!(p.ms > 0) || !(p.relative_rmse > 0)) continue;
+        bool is_live = i + 1 == all.size();
+        ImVec2 centre = place(p), mouse = ImGui::GetIO().MousePos;
+        list->AddCircleFilled(centre, is_live ? 5.0f : 3.5f,
+                              is_live ? IM_COL32(255, 170, 60, 255) : IM_COL32(120, 170, 230, 200));
+        if (std::hypot(mouse.x - centre.x, mouse.y - centre.y) < 6) hovered = &p;
+    }
+    std::string corner =
+        fmt::format("{:.2g} … {:.2g} ms,  {:.2g} … {:.2g} %", low_x, high_x, 100 * low_y, 100 * high_y);
+    list->AddText({at.x + 6, at.y + 4}, IM_COL32(150, 150, 150, 255), corner.c_str());
+    if (hovered)
+        ImGui::SetTooltip("%s\n%.3g ms, relative RMSE %.2f %%", hovered->label.c_str(), hovered->ms,
+                          100 * hovered->relative_rmse);
+}
+
+static void draw_figures(Comparison& comparison, PanelContext& context) {
+    const ErrorFigures& f = comparison.figures();
+    ImGui::Text("bias           %+8.2f %%", 100 * f.bias);
+    ImGui::Text("relative RMSE   %7.2f %%", 100 * f.relative_rmse);
+    ImGui::Text("99th percentile %7.2f %%", 100 * f.relative_error_p99);
+    ImGui::Text("reference noise %7.2f %%  (%d samples a pixel)", 100 * comparison.reference_noise(),
+                comparison.samples());
+    ImGui::TextDisabled("off depth and normal edges: %.0f %% of the pixels",
+                        100.0 * double(f.pixels) / (double(context.session.size().x) * context.session.size().y));
+    if (ImGui::SmallButton("FLIP")) context.ui.say(fmt::format("FLIP {:.4f}", comparison.measure_flip()));
+}
+
+void draw_compare_panel(PanelContext& context) {
+    if (!context.ui.comparison) context.ui.comparison = std::make_shared<Comparison>();
+    Comparison& comparison = *context.ui.comparison;
+    Session& session = context.session;
+
+    int full = comparison.full_transport;
+    const Transport& transport = session.graph().model().file().transport;
+    std::string own = transport.bounces < 0 ? "all light"
+                                            : fmt::format("what the graph models ({} bounce{})", transport.bounces,
+                                                          transport.bounces == 1 ? "" : "s");
+    if (ImGui::RadioButton(own.c_str(), &full, 0)) context.ui.redraw();
+    if (ImGui::RadioButton("all light##full", &full, 1)) context.ui.redraw();
+    comparison.full_transport = full != 0;
+    float percent = 100 * comparison.noise;
+    if (ImGui::SliderFloat("noise, %", &percent, 0.1f, 20, "%.1f", ImGuiSliderFlags_Logarithmic))
+        comparison.noise = percent / 100;
+
+    if (comparison.running()) {
+        ReferenceProgress progress = comparison.progress();
+        std::string text = fmt::format("{} samples", progress.samples);
+        if (progress.seconds_left >= 0) text += fmt::format(", {:.0f} s left", progress.seconds_left);
+        ImGui::ProgressBar(float(progress.share), {-1, 0}, text.c_str());
+        if (ImGui::Button("stop")) comparison.stop();
+        note_widget("compare.stop");
+        context.ui.redraw_panels = true;
+    } else {
+        bool stale = !comparison.has_reference() || comparison.stale(session);
+        if (ImGui::Button(stale ? "render the reference" : "go on")) comparison.start(session);
+        note_widget("compare.start");
+        if (comparison.has_reference() && stale) ImGui::TextDisabled("the last one is of another view");
+    }
+    if (std::string problem = comparison.problem(); !problem.empty()) ImGui::TextWrapped("%s", problem.c_str());
+    comparison.update(session);
+    if (!comparison.has_reference() || comparison.stale(session) || !comparison.measured()) return;
+
+    ImGui::Separator();
+    static const char* const views[] = {"off", "split", "flicker", "error", "reference"};
+    for (int i = 0; i < 5; ++i) {
+        if (i) ImGui::SameLine();
+        if (ImGui::RadioButton(views[i], int(comparison.view) == i)) comparison.view = CompareView(i);
+        note_widget(fmt::format("compare.view.{}", views[i]));
+    }
+    if (comparison.view == CompareView::split) ImGui::SliderFloat("split", &comparison.split, 0, 1, "%.2f");
+    note_widget("compare.split");
+    if (comparison.view == CompareView::error)
+        ImGui::SliderFloat("brightest", &comparison.error_range, 0.01f, 4, "%.2f", ImGuiSliderFlags_Logarithmic);
+    if (comparison.view == CompareView::flicker) context.ui.redraw_panels = true;
+    draw_figures(comparison, context);
+
+    ImGui::Separator();
+    ComparePoint live = comparison.live(session);
+    draw_points(comparison, live);
+    if (ImGui::SmallButton("keep this point")) comparison.points.push_back(live);
+    note_widget("compare.keep");
+    ImGui::SameLine();
+    if (ImGui::SmallButton("clear")) comparison.points.clear();
+    static char folder[512] = "";
+    ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 6);
+    ImGui::InputTextWithHint("##chart", "folder of a chart", folder, sizeof folder);
+    ImGui::SameLine();
+    if (ImGui::SmallButton("load chart")) {
+        try {
+            size_t before = comparison.points.size();
+            for (const ChartPoint& point : load_points(folder)) {
+                if (point.task.shot != session.options().shot) continue;
+                const PointError& error = comparison.full_transport ? point.full : point.same_transport;
+                comparison.points.push_back({point.task.label(), point.total_ms, error.relative_rmse});
+            }
+            context.ui.say(fmt::format("{} points of this shot", comparison.points.size() - before));
+        } catch (const std::exception& error) {
+            context.ui.say(error.what(), true);
+        }
+    }
+}
+
+} // namespace bounce

@@ -1,0 +1,203 @@
+#include "app/ui/comparison.h"
+
+#include "app/capture.h"
+#include "app/experiments/parts.h"
+#include "core/error.h"
+#include "core/flip.h"
+#include "core/heat_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace bounce {
+
+static bool models_everything(const Comparison& comparison, const Session& session) {
+    return comparison.full_transport || session.graph().model().file().transport.bounces < 0;
+}
+
+/// What the reference depends on, as far as the window can change it.
+std::string Comparison::key_of(const Session& session) const {
+    const Transport& transport = session.graph().model().file().transport;
+    return fmt::format("{} {} {} {}x{} {} {} {}", session.options().shot, session.edits(),
+                       camera_json(session.camera()), session.size().x, session.size().y, session.frame(),
+                       models_everything(*this, session) ? -1 : transport.bounces,
+                       !full_transport && transport.diffuse_only);
+}
+
+bool Comparison::stale(const Session& session) const {
+    return key_of(session) != reference_key_;
+}
+
+void Comparison::start(const Session& session) {
+    stop();
+    auto shot = std::make_shared<Shot>(session.shot());
+    shot->camera = session.camera();
+    shot->camera_path = {};
+    shot->width = session.size().x;
+    shot->height = session.size().y;
+    const Transport& transport = session.graph().model().file().transport;
+    ReferenceSettings settings;
+    settings.bounces = models_everything(*this, session) ? k_unlimited_bounces : transport.bounces;
+    settings.diffuse_only = !full_transport && transport.diffuse_only;
+    parts_ = full_transport ? std::vector<std::string>{"out.radiance"} : transport.parts;
+    started_key_ = key_of(session);
+    int frame = session.frame();
+    double target = noise;
+    {
+        std::lock_guard lock(mutex_);
+        problem_.clear();
+        progress_ = {};
+        has_fresh_ = false;
+    }
+    running_ = true;
+    thread_ = std::jthread([this, shot, settings, frame, target](std::stop_token stop_token) {
+        try {
+            // Better and better: each goal goes on from the samples of the one before.
+            for (int samples = 8; samples <= 1 << 16 && !stop_token.stop_requested(); samples *= 4) {
+                ReferenceGoal goal;
+                goal.samples = samples;
+                ReferenceResult result =
+                    reference_image(*shot, settings, frame, goal, [&](const ReferenceProgress& now) {
+                        std::lock_guard lock(mutex_);
+                        progress_ = now;
+                        return !stop_token.stop_requested();
+                    });
+                if (!result.complete) break;
+                double reached = result.noise;
+                std::lock_guard lock(mutex_);
+                fresh_ = std::move(result);
+                has_fresh_ = true;
+                if (reached <= target) break;
+            }
+        } catch (const std::exception& error) {
+            std::lock_guard lock(mutex_);
+            problem_ = error.what();
+        }
+        running_ = false;
+    });
+}
+
+void Comparison::stop() {
+    if (!thread_.joinable()) return;
+    thread_.request_stop();
+    thread_.join();
+}
+
+ReferenceProgress Comparison::progress() const {
+    std::lock_guard lock(mutex_);
+    return progress_;
+}
+
+std::string Comparison::problem() const {
+    std::lock_guard lock(mutex_);
+    return problem_;
+}
+
+bool Comparison::update(const Session& session) {
+    bool changed = false;
+    {
+        std::lock_guard lock(mutex_);
+        if (has_fresh_) {
+            reference_ = std::move(fresh_.image);
+            samples_ = fresh_.samples;
+            reference_noise_ = noise_of_parts(reference_, parts_);
+            reference_key_ = started_key_;
+            has_fresh_ = false;
+            changed = true;
+        }
+    }
+    if (!has_reference() || stale(session)) return changed;
+    if (!changed && measured_frames_ == session.graph().frames()) return false;
+    measured_frames_ = session.graph().frames();
+    truth_ = sum_of_parts(reference_, parts_);
+    own_ = sum_of_parts(read_parts(session), parts_);
+    if (const GpuTexture* display = session.graph().texture("out.display")) display_ = read_layer(*display);
+    if (own_.pixels.size() != truth_.pixels.size()) return changed;
+    mask_ = edge_mask(reference_.layers.at("gbuffer.normal"), reference_.layers.at("gbuffer.position"),
+                      session.camera().position);
+    try {
+        figures_ = error_figures(own_, truth_, mask_);
+    } catch (const Error& error) { // a NaN in the picture, nothing but edges …
+        figures_ = {};
+        std::lock_guard lock(mutex_);
+        problem_ = error.what();
+    }
+    return true;
+}
+
+double Comparison::measure_flip() {
+    if (own_.empty() || truth_.empty()) return 0;
+    float exposure = automatic_exposure(truth_, mask_);
+    return flip_mean(flip(display_values(own_, exposure), display_values(truth_, exposure)), mask_);
+}
+
+ComparePoint Comparison::live(const Session& session) const {
+    std::string label = session.options().graph;
+    for (const auto& [name, value] : session.changed_parameters(ParameterOrigin::command_line))
+        label += " " + name + "=" + value;
+    return {label, session.graph().frame_ms(), figures_.relative_rmse};
+}
+
+void Comparison::release_gpu() {
+    picture_ = {};
+    composed_.clear();
+}
+
+const GpuTexture* Comparison::picture(const Session& session, double seconds) {
+    if (view == CompareView::off || !has_reference() || stale(session) || own_.empty()) return nullptr;
+    bool second = view == CompareView::flicker && std::fmod(seconds, 1.0) >= 0.5;
+    std::string wanted =
+        fmt::format("{} {} {} {} {} {}", int(view), split, second, error_range, measured_frames_, samples_);
+    if (wanted != composed_ || !picture_) {
+        compose(session, second);
+        composed_ = wanted;
+    }
+    return &picture_;
+}
+
+/// The tone map of the graph, for the reference: exposure and curve of its pass `tonemap`, where it has one.
+static void display_pixel(const float* radiance, float scale, bool aces_like, uint8_t* out) {
+    for (int c = 0; c < 3; ++c) {
+        float x = radiance[c] * scale;
+        if (aces_like) x = x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f);
+        out[c] = uint8_t(std::lround(255 * srgb_encode(std::clamp(x, 0.0f, 1.0f))));
+    }
+    out[3] = 255;
+}
+
+void Comparison::compose(const Session& session, bool second_half) {
+    glm::ivec2 size = session.size();
+    float scale = 1;
+    bool aces_like = false;
+    if (const PassNode* tonemap = session.graph().model().find_node("tonemap")) {
+        if (const Parameter* exposure = tonemap->parameters.find("exposure"))
+            scale = std::exp2(std::get<float>(exposure->value));
+        if (const Parameter* curve = tonemap->parameters.find("curve")) aces_like = std::get<int>(curve->value) == 1;
+    }
+    Image8 image{size.x, size.y, std::vector<uint8_t>(size_t(size.x) * size.y * 4, 255)};
+    if (view == CompareView::error) {
+        image = heat_map(relative_error_map(own_, truth_), 0, std::max(error_range, 1e-3f), mask_);
+    } else {
+        int border = view == CompareView::split                     ? int(split * float(size.x))
+                     : view == CompareView::flicker && !second_half ? size.x
+                                                                    : 0;
+        for (int y = 0; y < size.y; ++y) {
+            for (int x = 0; x < size.x; ++x) {
+                uint8_t* out = &image.rgba[(size_t(y) * size.x + x) * 4];
+                if (x < border && !display_.empty()) {
+                    for (int c = 0; c < 3; ++c)
+                        out[c] = uint8_t(std::lround(255 * display_.at(x, y)[c]));
+                } else {
+                    display_pixel(truth_.at(x, y), scale, aces_like, out);
+                }
+            }
+        }
+    }
+    TextureDesc desc{TextureKind::texture_2d, GL_RGBA8, {size.x, size.y, 1}, 1};
+    if (!picture_ || picture_.desc() != desc) picture_ = GpuTexture(desc, "comparison");
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTextureSubImage2D(picture_.id(), 0, 0, 0, size.x, size.y, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+}
+
+} // namespace bounce

@@ -1,0 +1,143 @@
+// The session: what both hosts drive.
+#include "app/capture.h"
+#include "app/session.h"
+#include "app/timings.h"
+#include "support/errors.h"
+#include "support/gpu_context.h"
+#include "support/temp_folder.h"
+#include "support/tiny_scene.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+using namespace bounce;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class SessionTest : public GpuTest {
+  protected:
+    SessionOptions options() {
+        TinyScene()
+            .quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1})
+            .box({-0.3f, 0, -0.3f}, {0.2f, 0.6f, 0.2f})
+            .write(root.path(), "tiny");
+        SessionOptions out;
+        out.shot = write_shot(root.path(), "tiny", "tiny.gltf", {0.4f, 1, 2}, {0, 0.2f, 0},
+                              R"({"type":"point","position":[-0.7,1,0.4],"intensity":2})");
+        out.size = {32, 18};
+        out.sets = {{"shadow_maps.resolution", "64"}};
+        return out;
+    }
+    std::vector<float> picture(Session& session) { return session.graph().texture("out.radiance")->read(); }
+    TempRoot root;
+};
+
+TEST_F(SessionTest, BadOptionsAreToldTogetherWithTheNearest) {
+    SessionOptions bad = options();
+    bad.sets = {{"tonemap.exposre", "1"}, {"tonemap.exposure", "100"}, {"exposure", "1"}, {"tonemap.curve", "aces"}};
+    std::string text = error_of([&] { Session session(bad); });
+    EXPECT_THAT(text,
+                AllOf(HasSubstr("4 errors"), HasSubstr("did you mean 'tonemap.exposure'?"), HasSubstr("[-16, 16]"),
+                      HasSubstr("pass.parameter"), HasSubstr("did you mean 'aces_like'?")));
+    bad = options();
+    bad.graph = "driect";
+    EXPECT_THAT(error_of([&] { Session session(bad); }), HasSubstr("did you mean 'direct'?"));
+}
+
+TEST_F(SessionTest, TheSameFramesGiveTheSameBits) {
+    Session one(options()), two(options());
+    for (int frame = 0; frame < 3; ++frame) {
+        if (frame) one.advance();
+        one.render();
+    }
+    two.set_frame(2);
+    two.render();
+    two.render();
+    EXPECT_EQ(picture(one), picture(two));
+}
+
+TEST_F(SessionTest, AGraphThatCannotBeOpenedLeavesTheOldOneRunning) {
+    Session session(options());
+    session.render();
+    std::vector<float> before = picture(session);
+    root.write("assets/graphs/bad.json",
+               R"({"version":1,"resources":{"out.radiance":{"size":[100000,100000]}},"passes":[{"type":"gbuffer"},
+        {"id":"compose","type":"compute","shader":"surface/compose.comp"}]})");
+    EXPECT_THAT(error_of([&] { session.open_graph("bad"); }), HasSubstr("out.radiance"));
+    EXPECT_THAT(error_of([&] { session.open_shot("no_such_shot"); }), HasSubstr("no_such_shot"));
+    session.graph().touch();
+    session.render();
+    EXPECT_TRUE(session.graph().problems().empty());
+    EXPECT_EQ(picture(session), before);
+}
+
+TEST_F(SessionTest, ResizingAndLightsThatComeAndGo) {
+    Session session(options());
+    session.render();
+    session.resize({20, 10});
+    session.render();
+    EXPECT_EQ(picture(session).size(), 800u);
+    session.shot().scene.lights[0].enabled = false;
+    session.scene_edited();
+    session.render();
+    EXPECT_THAT(picture(session), testing::Each(testing::AnyOf(0, 1))) << "black, with an alpha of 1";
+    EXPECT_EQ(session.graph().texture("shadow.depth"), nullptr) << "nothing is modelled that the scene does not need";
+    session.shot().scene.lights[0].enabled = true;
+    session.scene_edited();
+    session.render();
+    EXPECT_GT(*std::max_element(picture(session).begin(), picture(session).end()), 0);
+    EXPECT_TRUE(session.graph().problems().empty());
+}
+
+TEST_F(SessionTest, TheCommandLineMakesThePictureAgain) {
+    Session session(options());
+    session.set_frame(2);
+    session.set_parameter("tonemap.curve", "aces_like", ParameterOrigin::panel);
+    EXPECT_THAT(session.command_line("x.png"),
+                AllOf(HasSubstr("--graph direct"), HasSubstr("--size 32x18"), HasSubstr("--frames 3"),
+                      HasSubstr("--set shadow_maps.resolution=64"), HasSubstr("--set tonemap.curve=aces_like"),
+                      HasSubstr("-o x.png")));
+}
+
+TEST_F(SessionTest, AfterAResetOfTheGpuEverythingIsMadeAgain) {
+    SessionOptions given = options();
+    Session session(given);
+    session.set_parameter("tonemap.exposure", "1", ParameterOrigin::panel);
+    session.render();
+    std::vector<float> before = picture(session);
+    session.release_gpu();
+    EXPECT_EQ(live_objects().textures, 0);
+    session.restore_gpu();
+    session.render();
+    EXPECT_FALSE(session.graph().problems().empty()) << "the program that was compiled last is disabled";
+    root.edit("glsl/surface/tonemap.comp", "void main()", "// edited\nvoid main()");
+    session.poll_files();
+    session.render();
+    for (const GraphProblem& problem : session.graph().problems())
+        ADD_FAILURE() << problem.error.text();
+    EXPECT_EQ(picture(session), before);
+    EXPECT_EQ(session.graph().model().parameter("tonemap.exposure").value, ParameterValue(1.0f));
+}
+
+TEST_F(SessionTest, MetadataAndTimings) {
+    Session session(options());
+    session.render();
+    auto metadata = nlohmann::json::parse(picture_metadata(session, "gbuffer.normal"));
+    EXPECT_EQ(metadata["graph"], "direct");
+    EXPECT_EQ(metadata["resource"], "gbuffer.normal");
+    EXPECT_EQ(metadata["parameters"]["shadow_maps.resolution"], "64");
+    EXPECT_EQ(metadata["size"], nlohmann::json::array({32, 18}));
+    EXPECT_FALSE(metadata["commit"].get<std::string>().empty());
+    EXPECT_FALSE(metadata["renderer"].get<std::string>().empty());
+    session.graph().finish_timings();
+    write_timings(session, root / "t.json");
+    auto timings = nlohmann::json::parse(root.read("t.json"));
+    uint64_t bytes = 0;
+    for (const auto& [name, value] : timings["resources"].items())
+        bytes += value.get<uint64_t>();
+    EXPECT_EQ(bytes, timings["total_bytes"].get<uint64_t>());
+    EXPECT_EQ(timings["resources"]["shadow.depth"], 64 * 64 * 4 * 6);
+    for (const auto& pass : timings["passes"])
+        EXPECT_GT(pass["median_ms"].get<double>(), 0) << pass;
+    EXPECT_THAT(timing_table(session), AllOf(HasSubstr("gbuffer"), HasSubstr("emission: not run")));
+}

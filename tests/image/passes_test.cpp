@@ -1,0 +1,149 @@
+// Every registered pass, on a tiny scene with every kind of light: no OpenGL error, nothing that is not finite; and
+// every published graph fits the limits that the OpenGL specification guarantees.
+#include "app/session.h"
+#include "core/paths.h"
+#include "support/gpu_context.h"
+#include "support/temp_folder.h"
+#include "support/tiny_scene.h"
+
+#include <algorithm>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <regex>
+#include <set>
+
+using namespace bounce;
+
+namespace {
+
+std::string read_text(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+std::vector<std::string> graph_names() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(real_root() / "assets/graphs"))
+        if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+class Passes : public GpuTest {
+  protected:
+    std::string tiny_shot() {
+        TinyScene()
+            .quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, {0.7f, 0.6f, 0.5f})
+            .box({-0.3f, 0, -0.3f}, {0.2f, 0.6f, 0.2f}, {0.4f, 0.5f, 0.8f})
+            .quad({-0.8f, 0.01f, 0.6f}, {-0.5f, 0.01f, 0.6f}, {-0.5f, 0.3f, 0.5f}, {-0.8f, 0.3f, 0.5f})
+            .emission({0.9f, 0.8f, 0.3f})
+            .write(folder.path(), "tiny");
+        return write_shot(
+            folder.path(), "tiny", "tiny.gltf", {0.4f, 1, 2}, {0, 0.2f, 0},
+            R"({"type":"spot","position":[0.5,2,0.5],"direction":[-0.2,-1,-0.2],"intensity":4,"outer_cone_deg":40},)"
+            R"({"type":"point","position":[-0.7,1,0.4],"intensity":2},)"
+            R"({"type":"directional","direction":[0.3,-1,-0.2],"intensity":1})",
+            R"(,"environment":[0.2,0.3,0.4])");
+    }
+    TempFolder folder;
+};
+
+} // namespace
+
+/// Objects that register themselves are dropped by a linker that sees no use of them.
+TEST(Registry, HoldsEveryPassThatTheSourcesRegister) {
+    std::set<std::string> written, known;
+    static const std::regex line(R"re(^BOUNCE_REGISTER_PASS\(\s*"([a-z0-9_]+)")re");
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(
+             std::filesystem::path(BOUNCE_TESTS_DIR).parent_path() / "passes")) {
+        if (entry.path().extension() != ".cpp") continue;
+        std::istringstream text(read_text(entry.path()));
+        std::smatch match;
+        for (std::string one; std::getline(text, one);)
+            if (std::regex_search(one, match, line)) written.insert(match[1]);
+    }
+    for (const PassType& type : pass_types())
+        known.insert(type.name);
+    EXPECT_GE(written.size(), 3u);
+    for (const std::string& name : written)
+        EXPECT_TRUE(known.contains(name)) << name << " is in the sources but not in the program";
+    for (const PassType& type : pass_types())
+        EXPECT_FALSE(type.about.empty()) << type.name;
+}
+
+TEST_F(Passes, EachRunsInSomeGraphWithoutErrorsAndWithFiniteResults) {
+    std::string shot = tiny_shot();
+    std::set<std::string> ran;
+    for (const std::string& graph : graph_names()) {
+        SessionOptions options;
+        options.shot = shot;
+        options.graph = graph;
+        options.size = {64, 36};
+        options.check_nan = true;
+        Session session(options);
+        for (const std::string& name : session.graph().model().parameter_names()) // large maps are not what is tested
+            if (name == "shadow_maps.resolution") session.set_parameter(name, "128", ParameterOrigin::panel);
+        for (int frame = 0; frame < 2; ++frame) {
+            if (frame) session.advance();
+            session.render();
+            for (const auto& [resource, count] : session.graph().non_finite())
+                ADD_FAILURE() << graph << ": " << count << " values of " << resource << " are not finite";
+        }
+        for (const GraphProblem& problem : session.graph().problems())
+            ADD_FAILURE() << graph << ": " << problem.error.text();
+        for (const PlanPass& pass : session.graph().plan().passes)
+            ran.insert(session.graph().model().nodes()[size_t(pass.node)]->entry.type);
+        std::vector<float> picture = session.graph().texture("out.radiance")->read();
+        EXPECT_GT(*std::max_element(picture.begin(), picture.end()), 0) << graph << " is black";
+    }
+    for (const PassType& type : pass_types())
+        EXPECT_TRUE(ran.contains(type.name)) << "no published graph runs a pass of type " << type.name;
+}
+
+/// A scene without lights, emission or environment: nothing to do is no error either.
+TEST_F(Passes, RunOnASceneThatNeedsNoneOfThem) {
+    TinyScene().quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}).write(folder.path(), "dark");
+    std::string shot = write_shot(folder.path(), "dark", "dark.gltf", {0, 1, 2}, {0, 0, 0}, "");
+    for (const std::string& graph : graph_names()) {
+        SessionOptions options;
+        options.shot = shot;
+        options.graph = graph;
+        options.size = {32, 18};
+        options.check_nan = true;
+        Session session(options);
+        session.render();
+        for (const GraphProblem& problem : session.graph().problems())
+            ADD_FAILURE() << graph << ": " << problem.error.text();
+        EXPECT_TRUE(session.graph().non_finite().empty()) << graph;
+        EXPECT_THAT(session.graph().texture("out.radiance")->read(0), testing::Contains(0)) << graph;
+        EXPECT_FALSE(session.graph().plan().declined.empty()) << graph;
+    }
+}
+
+TEST_F(Passes, PublishedGraphsFitTheLimitsThatEveryDriverHas) {
+    std::string shot = tiny_shot();
+    for (const std::string& graph : graph_names()) {
+        SessionOptions options;
+        options.shot = shot;
+        options.graph = graph;
+        options.size = {64, 36};
+        Session session(options);
+        for (const auto& node : session.graph().model().nodes()) {
+            for (const auto& program : node->programs) {
+                if (!program->usable()) continue; // of a declined pass
+                std::string where = graph + ": " + node->id() + "/" + program->name();
+                const ProgramInterface& interface = program->interface();
+                int samplers = 0, images = 0;
+                for (const OpaqueInfo& sampler : interface.samplers)
+                    samplers += sampler.count;
+                for (const OpaqueInfo& image : interface.images)
+                    images += image.count;
+                // Of the whole program: no stage has more than that.
+                EXPECT_LE(samplers, 16) << where;
+                EXPECT_LE(images, 8) << where;
+                EXPECT_LE(interface.storage_blocks.size(), 8u) << where;
+                EXPECT_LE(interface.local_size.x * interface.local_size.y * interface.local_size.z, 1024) << where;
+            }
+        }
+    }
+}
