@@ -111,6 +111,10 @@ void check_output_path(const fs::path& path) {
     if (extension != ".exr" && extension != ".png") {
         throw Error(fmt::format("'{}': pictures are written as .exr or .png", path.string()));
     }
+    check_output_folder(path);
+}
+
+void check_output_folder(const fs::path& path) {
     fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
     if (!fs::is_directory(folder))
         throw Error(fmt::format("'{}': there is no folder '{}'", path.string(), folder.string()));

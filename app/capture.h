@@ -26,6 +26,9 @@ void write_picture(const Session& session, const std::filesystem::path& path, co
 /// Refuses an output path that cannot work before anything is computed: its extension and its folder.
 void check_output_path(const std::filesystem::path& path);
 
+/// The folder of any file that is to be written.
+void check_output_folder(const std::filesystem::path& path);
+
 /// The commit that the program was built from.
 const char* program_commit();
 

@@ -76,6 +76,10 @@ std::string write_new_pass(const NewPass& request) {
                     "' is no name for a pass: it is lower case letters and digits, as 'edges' "
                     "(it also names the group of its resources)");
     }
+    // What the program gives these names to already: graph.parameter, scene.lights, material textures, GLSL's own gl_….
+    for (const char* reserved : {"graph", "scene", "material", "gl"}) {
+        if (name == reserved) throw Error(fmt::format("'{}' is no name for a pass: the program uses it itself", name));
+    }
     fs::path shader = glsl_folder() / "user" / (name + ".comp");
     fs::path cpp = root_folder() / "passes" / "surface" / (name + ".cpp");
     fs::path graph_path = find_graph(request.graph);

@@ -27,7 +27,7 @@ struct RenderArguments : SessionArguments {
 
 /// "x_%04d.png" → "x_0007.png"; empty when the name has no %0Nd.
 std::string numbered(const std::string& pattern, int number) {
-    size_t percent = pattern.find('%');
+    size_t percent = pattern.find('%', pattern.rfind('/') + 1); // of the file, not of its folder
     if (percent == std::string::npos) return {};
     size_t end = pattern.find('d', percent);
     if (end == std::string::npos) throw Error("'" + pattern + "': frames are numbered as %04d");
@@ -51,6 +51,8 @@ int render(const RenderArguments& arguments) {
     check_output_path(arguments.output);
     if (arguments.frames < 1 || arguments.frames > 1000000)
         throw Error(fmt::format("--frames {}: it is 1 … 1000000", arguments.frames));
+    numbered(arguments.output, 0); // before anything is computed
+    if (!arguments.timings.empty()) check_output_folder(arguments.timings);
     SessionOptions options = arguments.options();
     HeadlessContext context(arguments.device);
     spdlog::debug("{}", describe(context.capabilities()));

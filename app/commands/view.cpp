@@ -20,14 +20,16 @@ struct ViewArguments : SessionArguments {
 glm::ivec2 window_size(const std::string& text) {
     static const std::regex form("([0-9]{3,5})x([0-9]{3,5})");
     std::smatch match;
-    if (!std::regex_match(text, match, form)) throw Error(fmt::format("--window {}: it is written WxH, as 1366x768", text));
+    if (!std::regex_match(text, match, form))
+        throw Error(fmt::format("--window {}: it is written WxH, as 1366x768", text));
     return {std::stoi(match[1]), std::stoi(match[2])};
 }
 
 int view(const ViewArguments& arguments) {
     ViewOptions options = arguments.view;
     options.session = arguments.options();
-    if (options.frames < 0 || options.frames > 1000000) throw Error(fmt::format("--frames {}: it is 1 … 1000000", options.frames));
+    if (options.frames < 0 || options.frames > 1000000)
+        throw Error(fmt::format("--frames {}: it is 1 … 1000000", options.frames));
     if (!arguments.window.empty()) options.window_size = window_size(arguments.window);
     ViewerApp(std::move(options)).run();
     return 0;
@@ -44,15 +46,18 @@ bool display_is_there() {
 } // namespace
 
 void add_view_command(CLI::App& app, CommandFunction& chosen) {
-    auto* command = app.add_subcommand("view", "open the window (the shot and graph of the last time where none is given)");
+    auto* command =
+        app.add_subcommand("view", "open the window (the shot and graph of the last time where none is given)");
     auto arguments = std::make_shared<ViewArguments>();
     arguments->add_to(*command, false);
     command->add_option("--window", arguments->window, "WxH of the window");
     command->add_option("--frames", arguments->view.frames, "quit after so many rendered frames");
-    command->add_option("--capture-on-exit", arguments->view.capture_on_exit, "write the last picture to this .png or .exr");
+    command->add_option("--capture-on-exit", arguments->view.capture_on_exit,
+                        "write the last picture to this .png or .exr");
     // For tests of the window.
     command->add_option("--dump-ui", arguments->view.dump_ui, "tell each drawn frame to this .json")->group("");
-    command->add_option("--simulate-reset", arguments->view.simulate_reset, "lose the GPU after so many frames")->group("");
+    command->add_option("--simulate-reset", arguments->view.simulate_reset, "lose the GPU after so many frames")
+        ->group("");
     command->callback([arguments, command, &chosen] {
         arguments->view.shot_given = command->count("shot") > 0;
         arguments->view.graph_given = command->count("--graph") > 0;

@@ -6,11 +6,11 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <algorithm>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
 #include <cctype>
 #include <fmt/format.h>
 #include <imgui.h>
-#include <backends/imgui_impl_glfw.h>
-#include <backends/imgui_impl_opengl3.h>
 #include <map>
 
 namespace bounce {
@@ -45,10 +45,11 @@ Window::Native& native_of(GLFWwindow* handle) {
 /// What a key is called in the keys panel; empty for those that have no command.
 std::string key_name(int key, int scancode) {
     static const std::map<int, std::string> named = {
-        {GLFW_KEY_SPACE, "Space"},   {GLFW_KEY_HOME, "Home"},         {GLFW_KEY_END, "End"},   {GLFW_KEY_ESCAPE, "Escape"},
-        {GLFW_KEY_TAB, "Tab"},       {GLFW_KEY_ENTER, "Enter"},       {GLFW_KEY_LEFT, "Left"}, {GLFW_KEY_RIGHT, "Right"},
-        {GLFW_KEY_UP, "Up"},         {GLFW_KEY_DOWN, "Down"},         {GLFW_KEY_DELETE, "Delete"},
-        {GLFW_KEY_PAGE_UP, "PageUp"}, {GLFW_KEY_PAGE_DOWN, "PageDown"}};
+        {GLFW_KEY_SPACE, "Space"},       {GLFW_KEY_HOME, "Home"},     {GLFW_KEY_END, "End"},
+        {GLFW_KEY_ESCAPE, "Escape"},     {GLFW_KEY_TAB, "Tab"},       {GLFW_KEY_ENTER, "Enter"},
+        {GLFW_KEY_LEFT, "Left"},         {GLFW_KEY_RIGHT, "Right"},   {GLFW_KEY_UP, "Up"},
+        {GLFW_KEY_DOWN, "Down"},         {GLFW_KEY_DELETE, "Delete"}, {GLFW_KEY_PAGE_UP, "PageUp"},
+        {GLFW_KEY_PAGE_DOWN, "PageDown"}};
     if (auto found = named.find(key); found != named.end()) return found->second;
     if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) return "F" + std::to_string(key - GLFW_KEY_F1 + 1);
     // Digits by their place: on some keyboards they need Shift.

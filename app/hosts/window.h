@@ -1,6 +1,6 @@
 #pragma once
-// The window host: an OpenGL 4.6 context on a desktop, its events, and Dear ImGui's backends. window.cpp is the only file
-// that includes GLFW.
+// The window host: an OpenGL 4.6 context on a desktop, its events, and Dear ImGui's backends. window.cpp is the only
+// file that includes GLFW.
 
 #include "gpu/capabilities.h"
 

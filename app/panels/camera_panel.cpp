@@ -60,7 +60,8 @@ void draw_bookmarks(PanelContext& context) {
     const std::string& shot = context.session.options().shot;
     static std::string name;
     ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 3.2f);
-    bool enter = ImGui::InputTextWithHint("##name", "name of a new bookmark", &name, ImGuiInputTextFlags_EnterReturnsTrue);
+    bool enter =
+        ImGui::InputTextWithHint("##name", "name of a new bookmark", &name, ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::SameLine();
     int number = 0;
     bool add = ImGui::Button("add", {-1, 0});
@@ -73,7 +74,8 @@ void draw_bookmarks(PanelContext& context) {
         ImGui::PushID(i);
         ImGui::TextColored(k_dim_colour, "%s", number <= 9 ? std::to_string(number).c_str() : " ");
         ImGui::SameLine(ImGui::GetFontSize() * 1.6f);
-        if (ImGui::Selectable(mark.name.c_str(), false, 0, {ImGui::GetContentRegionAvail().x - ImGui::GetFontSize() * 2, 0})) {
+        if (ImGui::Selectable(mark.name.c_str(), false, 0,
+                              {ImGui::GetContentRegionAvail().x - ImGui::GetFontSize() * 2, 0})) {
             context.session.set_camera(mark.camera, true);
             context.ui.redraw();
         }
@@ -85,7 +87,8 @@ void draw_bookmarks(PanelContext& context) {
     if (remove >= 0) state.bookmarks.erase(state.bookmarks.begin() + remove);
     if (number == 0) ImGui::TextColored(k_dim_colour, "none for this shot (B adds one)");
     if (add || enter) {
-        state.bookmarks.push_back({shot, name.empty() ? fmt::format("view {}", number + 1) : name, context.session.camera()});
+        state.bookmarks.push_back(
+            {shot, name.empty() ? fmt::format("view {}", number + 1) : name, context.session.camera()});
         name.clear();
     }
 }
@@ -153,7 +156,8 @@ void draw_history(const UiState& ui) {
     std::string text = fmt::format("median {:.1f} ms, 95 % {:.1f}, worst {:.1f}", median, high, most);
     // The scale ignores a lone outlier, such as a shader that was compiled.
     float top = std::max(1.3f * high, 1.0f);
-    ImGui::PlotHistogram("##history", ui.frame_ms.data(), int(ui.frame_ms.size()), 0, nullptr, 0, top, {-1, ImGui::GetFontSize() * 4.5f});
+    ImGui::PlotHistogram("##history", ui.frame_ms.data(), int(ui.frame_ms.size()), 0, nullptr, 0, top,
+                         {-1, ImGui::GetFontSize() * 4.5f});
     ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
     for (float budget : {16.7f, 33.3f}) {
         if (budget > top) continue;

@@ -67,7 +67,8 @@ void draw_sequence(PanelContext& context) {
 void draw_reproduction(PanelContext& context) {
     if (ImGui::Button("save shot")) later(context, [](PanelContext& c) { save_shot(c); });
     note_widget("capture.save_shot");
-    help(("Camera, lights, environment, size and time as a shot file (" + chord_of(KeyCommand::save_shot) + ").").c_str());
+    help(("Camera, lights, environment, size and time as a shot file (" + chord_of(KeyCommand::save_shot) + ").")
+             .c_str());
     std::string command = reproducing_command(context);
     ImGui::SameLine();
     ImGui::BeginDisabled(command.empty());
@@ -77,14 +78,16 @@ void draw_reproduction(PanelContext& context) {
     }
     ImGui::EndDisabled();
     if (command.empty()) {
-        show_wrapped("The camera or the scene is not the shot's any more: save the shot, and the command that makes this picture stands here.",
+        show_wrapped("The camera or the scene is not the shot's any more: save the shot, and the command that makes "
+                     "this picture stands here.",
                      k_warning_colour);
     } else {
         ImGui::PushFont(fixed_font());
         show_wrapped(command, ImGui::GetStyleColorVec4(ImGuiCol_Text));
         ImGui::PopFont();
     }
-    if (std::string edits = unsaved_edits(context.session, context.ui.window.opened); !edits.empty()) show_wrapped(edits, k_warning_colour);
+    if (std::string edits = unsaved_edits(context.session, context.ui.window.opened); !edits.empty())
+        show_wrapped(edits, k_warning_colour);
 }
 
 void draw_preset(PanelContext& context) {

@@ -103,8 +103,8 @@ void draw_time(const PassTiming& timing, double slowest) {
 
 std::string time_text(const PassTiming& timing) {
     if (!timing.samples) return "not timed yet";
-    return fmt::format("GPU {:.3f} ms (median of {} frames), 10 to 90 %: {:.3f} to {:.3f} ms, last {:.3f} ms", timing.median,
-                       timing.samples, timing.low, timing.high, timing.last);
+    return fmt::format("GPU {:.3f} ms, median of {} frames\n10 to 90 % lie from {:.3f} to {:.3f} ms", timing.median, timing.samples, timing.low,
+                       timing.high);
 }
 
 /// Values of this pass's outputs that were not finite in the newest frame.

@@ -2,26 +2,34 @@
 #include "app/panels/panel.h"
 #include "app/ui/keys.h"
 #include "app/ui/style.h"
-#include "core/text.h"
+
+#include <imgui.h>
+#include <string_view>
 
 namespace bounce {
 
+/// Spellings of the same keys on other keyboards are left out.
 static std::string chords_text(const KeyBinding& binding) {
-    if (binding.chords.size() > 4) return binding.chords.front() + " … " + binding.chords.back();
-    return join(binding.chords, "  or  ");
+    const std::vector<std::string>& chords = binding.chords;
+    if (chords.size() > 4) return chords.front() + " … " + chords.back();
+    return chords.size() == 2 ? chords[0] + "  or  " + chords[1] : chords[0];
 }
 
-void draw_keys_panel(PanelContext&) {
-    // Two columns of groups, so that it fits a laptop's screen.
-    const char* group = "";
-    if (!ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) return;
+static void draw_groups(const char* table, std::string_view from, std::string_view to) {
+    if (!ImGui::BeginTable(table, 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoHostExtendX)) return;
+    std::string_view group;
+    bool inside = false;
     for (const KeyBinding& binding : key_bindings()) {
-        if (std::string_view(group) != binding.group) {
-            group = binding.group;
+        bool starts = group != binding.group;
+        group = binding.group;
+        inside = inside || group == from;
+        if (group == to) break;
+        if (!inside) continue;
+        if (starts) {
             ImGui::TableNextRow();
             ImGui::TableNextColumn();
-            if (binding.group != std::string_view(key_bindings().front().group)) ImGui::Spacing();
-            ImGui::TextColored(k_accent_colour, "%s", group);
+            if (group != from) ImGui::Spacing();
+            ImGui::TextColored(k_accent_colour, "%s", binding.group);
         }
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
@@ -30,6 +38,13 @@ void draw_keys_panel(PanelContext&) {
         ImGui::TextColored(k_dim_colour, "%s", binding.what);
     }
     ImGui::EndTable();
+}
+
+void draw_keys_panel(PanelContext&) {
+    // Two columns, so that it fits a laptop's screen.
+    draw_groups("left", "Camera", "Files");
+    ImGui::SameLine(0, 2 * ImGui::GetFontSize());
+    draw_groups("right", "Files", "");
 }
 
 } // namespace bounce

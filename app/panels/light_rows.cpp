@@ -27,7 +27,8 @@ struct Place {
 };
 
 Place place_of(const glm::mat4& world) {
-    return {glm::vec3(world[3]), -glm::normalize(glm::vec3(world[2]))};
+    // + 0: minus zero would be shown as -0.000.
+    return {glm::vec3(world[3]) + 0.0f, -glm::normalize(glm::vec3(world[2])) + 0.0f};
 }
 
 /// Moves the node so that its light is there. The parent stays.
@@ -62,7 +63,8 @@ class LightRow {
         note_widget(fmt::format("light.{}.enabled", index_));
         ImGui::SameLine();
         // One light is what is there to turn at; of many, the one that is wanted is opened.
-        ImGuiTreeNodeFlags flags = context_.session.shot().scene.lights.size() <= 2 ? ImGuiTreeNodeFlags_DefaultOpen : 0;
+        ImGuiTreeNodeFlags flags =
+            context_.session.shot().scene.lights.size() <= 2 ? ImGuiTreeNodeFlags_DefaultOpen : 0;
         if (!ImGui::TreeNodeEx("light", flags, "%s", name_.c_str())) return;
         ImGui::SameLine();
         ImGui::TextColored(k_dim_colour, "%s", k_types[size_t(light_.type)]);
@@ -80,12 +82,13 @@ class LightRow {
   private:
     void set(const Light& after, const char* what) {
         Session& session = context_.session;
-        edit(context_, name_ + ": " + what, light_, after, [&session, &ui = context_.ui, index = index_](const Light& value) {
-            if (index >= session.shot().scene.lights.size()) return;
-            session.shot().scene.lights[index] = value;
-            session.scene_edited();
-            ui.redraw();
-        });
+        edit(context_, name_ + ": " + what, light_, after,
+             [&session, &ui = context_.ui, index = index_](const Light& value) {
+                 if (index >= session.shot().scene.lights.size()) return;
+                 session.shot().scene.lights[index] = value;
+                 session.scene_edited();
+                 ui.redraw();
+             });
     }
 
     void draw_intensity() {
@@ -95,7 +98,8 @@ class LightRow {
         bool changed = ImGui::DragFloat("intensity", &strength, std::max(strength * 0.01f, 0.01f), 0, 1e9f, "%.4g",
                                         ImGuiSliderFlags_AlwaysClamp);
         note_widget(fmt::format("light.{}.intensity", index_));
-        help(light_.type == LightType::directional ? "W/m² at normal incidence, of the strongest channel." : "W/sr of the strongest channel.");
+        help(light_.type == LightType::directional ? "W/m² at normal incidence, of the strongest channel."
+                                                   : "W/sr of the strongest channel.");
         changed = ImGui::ColorEdit3("colour", &colour.x, ImGuiColorEditFlags_Float) || changed;
         if (!changed) return;
         Light after = light_;
@@ -113,8 +117,10 @@ class LightRow {
         if (!changed && !outer_changed) return;
         // Whichever is dragged pushes the other along.
         constexpr float apart = 0.25f;
-        if (outer_changed) inner = std::min(inner, outer - apart);
-        else outer = std::max(outer, inner + apart);
+        if (outer_changed)
+            inner = std::min(inner, outer - apart);
+        else
+            outer = std::max(outer, inner + apart);
         Light after = light_;
         after.inner_cone = glm::radians(std::max(inner, 0.0f));
         after.outer_cone = glm::radians(std::min(outer, 90.0f));
@@ -124,8 +130,9 @@ class LightRow {
     void draw_size() {
         bool directional = light_.type == LightType::directional;
         float size = directional ? glm::degrees(light_.angular_radius) : light_.radius;
-        bool changed = directional ? ImGui::DragFloat("radius", &size, 0.02f, 0, 45, "%.3g°", ImGuiSliderFlags_AlwaysClamp)
-                                   : ImGui::DragFloat("radius", &size, 0.005f, 0, 1e6f, "%.3g m", ImGuiSliderFlags_AlwaysClamp);
+        bool changed = directional
+                           ? ImGui::DragFloat("radius", &size, 0.02f, 0, 45, "%.3g°", ImGuiSliderFlags_AlwaysClamp)
+                           : ImGui::DragFloat("radius", &size, 0.005f, 0, 1e6f, "%.3g m", ImGuiSliderFlags_AlwaysClamp);
         help("Of the light itself: only soft shadows and the reference use it.");
         if (!changed) return;
         Light after = light_;
@@ -161,12 +168,13 @@ class LightRow {
         // Directions are kept as they are typed or dragged, axis by axis; only the node's rotation is of unit length.
         put(session.shot().scene, node_, after, session.time());
         std::swap(moved, session.shot().scene.nodes[size_t(node_)]);
-        edit(context_, name_ + ": place", before, moved, [&session, &ui = context_.ui, node = size_t(node_)](const Node& value) {
-            if (node >= session.shot().scene.nodes.size()) return;
-            session.shot().scene.nodes[node] = value;
-            session.scene_edited();
-            ui.redraw();
-        });
+        edit(context_, name_ + ": place", before, moved,
+             [&session, &ui = context_.ui, node = size_t(node_)](const Node& value) {
+                 if (node >= session.shot().scene.nodes.size()) return;
+                 session.shot().scene.nodes[node] = value;
+                 session.scene_edited();
+                 ui.redraw();
+             });
     }
 
     PanelContext& context_;

@@ -16,7 +16,8 @@ void draw_log_panel(PanelContext& context) {
     std::deque<LogLine> lines = recent_log_lines();
     if (ImGui::SmallButton("copy")) {
         std::string all;
-        for (const LogLine& line : lines) all += line.text + "\n";
+        for (const LogLine& line : lines)
+            all += line.text + "\n";
         ImGui::SetClipboardText(all.c_str());
         context.ui.say("the log is on the clipboard");
     }

@@ -25,7 +25,8 @@ void draw_emission(Material& after, bool& changed) {
     // Colour and strength apart, as for lights.
     float strength = std::max({after.emission.r, after.emission.g, after.emission.b});
     glm::vec3 colour = strength > 0 ? after.emission / strength : glm::vec3(1);
-    bool now = ImGui::DragFloat("emission", &strength, std::max(strength * 0.01f, 0.01f), 0, 1e7f, "%.4g", ImGuiSliderFlags_AlwaysClamp);
+    bool now = ImGui::DragFloat("emission", &strength, std::max(strength * 0.01f, 0.01f), 0, 1e7f, "%.4g",
+                                ImGuiSliderFlags_AlwaysClamp);
     help("Radiance of the strongest channel, W/(sr·m²).");
     if (strength > 0) now = ImGui::ColorEdit3("emitted", &colour.x, ImGuiColorEditFlags_Float) || now;
     if (now) after.emission = strength > 0 ? glm::clamp(colour, glm::vec3(0), glm::vec3(1)) * strength : glm::vec3(0);
@@ -47,7 +48,8 @@ void draw_material(PanelContext& context, size_t index) {
     help("Perceptual; α is its square.");
     draw_emission(after, changed);
     ImGui::PopItemWidth();
-    const Material& opened = index < context.ui.window.opened.materials.size() ? context.ui.window.opened.materials[index] : before;
+    const Material& opened =
+        index < context.ui.window.opened.materials.size() ? context.ui.window.opened.materials[index] : before;
     bool differs = opened.base_colour != before.base_colour || opened.metallic != before.metallic ||
                    opened.roughness != before.roughness || opened.emission != before.emission;
     if (differs && ImGui::SmallButton("as in the file")) {
@@ -78,7 +80,8 @@ void draw_material_rows(PanelContext& context) {
         ImGui::PushID(int(i));
         const glm::vec4& base = materials[i].base_colour;
         float side = ImGui::GetTextLineHeight();
-        ImGui::ColorButton("##swatch", {base.r, base.g, base.b, 1}, ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, {side, side});
+        ImGui::ColorButton("##swatch", {base.r, base.g, base.b, 1},
+                           ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, {side, side});
         ImGui::SameLine();
         if (ImGui::TreeNode("material", "%s%s", name.c_str(), materials[i].is_emissive() ? "  (emits)" : "")) {
             draw_material(context, i);

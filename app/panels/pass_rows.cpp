@@ -48,7 +48,7 @@ std::string size_text(const PlanResource& resource) {
     glm::ivec3 s = resource.texture.size;
     switch (resource.texture.kind) {
     case TextureKind::texture_2d: return fmt::format("{}×{}", s.x, s.y);
-    case TextureKind::texture_2d_array: return fmt::format("{}×{}×{} layers", s.x, s.y, s.z);
+    case TextureKind::texture_2d_array: return fmt::format("{}×{}, {} layer{}", s.x, s.y, s.z, s.z == 1 ? "" : "s");
     case TextureKind::texture_3d: break;
     }
     return s.x == s.y && s.y == s.z ? fmt::format("{}³", s.x) : fmt::format("{}×{}×{}", s.x, s.y, s.z);

@@ -23,7 +23,7 @@ std::string main_output(const Plan& plan, const PlanPass& pass);
 /// Everything that the plan says of a pass: what it reads and writes with formats, sizes and bytes, barriers, steps.
 std::string pass_details(const GraphModel& model, const Plan& plan, const PlanPass& pass);
 
-/// "320×180", "64×64×6 layers", "64³", "12,000 × 16 B".
+/// "320×180", "64×64, 6 layers", "64³", "12,000 × 16 B".
 std::string size_text(const PlanResource& resource);
 /// "rgba16f 320×180, 5 mips, 1.2 MiB".
 std::string resource_text(const PlanResource& resource);

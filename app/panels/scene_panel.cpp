@@ -15,30 +15,27 @@ namespace bounce {
 
 namespace {
 
-/// A list of the assets' names, and a line for any other file.
-void draw_choice(PanelContext& context, const char* label, const char* folder, const std::string& shown,
-                 void (*ask)(PanelContext&, const std::string&)) {
-    ImGui::PushID(label);
+void draw_shots(PanelContext& context) {
+    const std::string& shown = context.session.shot().name;
     ImGui::AlignTextToFramePadding();
-    ImGui::TextColored(k_dim_colour, "%s", label);
-    ImGui::SameLine(ImGui::GetFontSize() * 3.6f);
+    ImGui::TextColored(k_dim_colour, "shot");
+    ImGui::SameLine(ImGui::GetFontSize() * 3);
     ImGui::SetNextItemWidth(-1);
-    bool open = ImGui::BeginCombo("##choice", shown.c_str(), ImGuiComboFlags_HeightLarge);
-    note_widget(std::string("scene.") + label);
-    if (open) {
-        for (const std::string& name : asset_names(folder)) {
-            if (ImGui::Selectable(name.c_str(), name == shown)) ask(context, name);
-            note_widget(std::string("scene.") + label + "." + name);
-        }
-        ImGui::EndCombo();
+    bool open = ImGui::BeginCombo("##shot", shown.c_str(), ImGuiComboFlags_HeightLarge);
+    note_widget("scene.shot");
+    if (!open) return;
+    for (const std::string& name : asset_names("shots")) {
+        if (ImGui::Selectable(name.c_str(), name == shown)) ask_for_shot(context, name);
+        note_widget("scene.shot." + name);
     }
-    ImGui::PopID();
+    ImGui::EndCombo();
 }
 
 void draw_path_entry(PanelContext& context) {
     static std::string path;
     ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 3.4f);
-    bool enter = ImGui::InputTextWithHint("##path", "path of a .gltf, .glb, shot or graph", &path, ImGuiInputTextFlags_EnterReturnsTrue);
+    bool enter = ImGui::InputTextWithHint("##path", "path of a .gltf, .glb, shot or graph", &path,
+                                          ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::SameLine();
     bool pressed = ImGui::Button("open", {-1, 0});
     help("Files may also be dropped on the window.");
@@ -54,7 +51,14 @@ void draw_facts(const Session& session) {
          facts.emissive_materials, facts.alpha_tested_materials);
     fact("textures", "%zu, %s", facts.textures, format_bytes(double(gpu.texture_bytes())).c_str());
     fact("geometry", "%s", format_bytes(double(gpu.geometry_bytes())).c_str());
-    fact("lights", "%zu point, %zu spot, %zu directional", facts.point_lights, facts.spot_lights, facts.directional_lights);
+    std::vector<std::string> lights;
+    auto count = [&](size_t number, const char* what) {
+        if (number > 0) lights.push_back(fmt::format("{} {}", number, what));
+    };
+    count(facts.point_lights, "point");
+    count(facts.spot_lights, "spot");
+    count(facts.directional_lights, "directional");
+    fact("lights", "%s", lights.empty() ? "none is on" : join(lights, ", ").c_str());
     if (facts.dynamic_instances > 0 || facts.animated_lights) {
         fact("moving", "%zu draws%s, %.3g s", facts.dynamic_instances, facts.animated_lights ? " and lights" : "",
              double(facts.animation_duration));
@@ -67,7 +71,8 @@ void draw_notes(const Session& session) {
     const std::vector<std::string>& notes = session.shot().scene.notes;
     if (notes.empty()) return;
     if (!ImGui::TreeNode("notes", "%zu note%s of the loader", notes.size(), notes.size() == 1 ? "" : "s")) return;
-    for (const std::string& note : notes) show_wrapped("· " + note, k_warning_colour);
+    for (const std::string& note : notes)
+        show_wrapped("· " + note, k_warning_colour);
     ImGui::TreePop();
 }
 
@@ -81,13 +86,15 @@ void draw_surroundings(PanelContext& context) {
     ImGui::PushItemWidth(-ImGui::GetFontSize() * 6);
     glm::vec3 radiance = shot.environment.radiance;
     if (ImGui::ColorEdit3("environment", &radiance.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR)) {
-        edit(context, "environment", shot.environment.radiance, glm::max(radiance, glm::vec3(0)), [&session, changed](const glm::vec3& value) {
-            session.shot().environment.radiance = value;
-            changed();
-        });
+        edit(context, "environment", shot.environment.radiance, glm::max(radiance, glm::vec3(0)),
+             [&session, changed](const glm::vec3& value) {
+                 session.shot().environment.radiance = value;
+                 changed();
+             });
     }
     note_widget("scene.environment");
-    help(shot.environment.map.empty() ? "Radiance from all around, W/(sr·m²)." : "What the map's radiance is multiplied by.");
+    help(shot.environment.map.empty() ? "Radiance from all around, W/(sr·m²)."
+                                      : "What the map's radiance is multiplied by.");
     ImGui::PopItemWidth();
 
     bool diffuse_only = shot.diffuse_only;
@@ -119,8 +126,7 @@ void draw_surroundings(PanelContext& context) {
 void draw_scene_panel(PanelContext& context) {
     Session& session = context.session;
     ImGui::PushID("scene");
-    draw_choice(context, "shot", "shots", session.shot().name, ask_for_shot);
-    draw_choice(context, "graph", "graphs", session.graph().model().file().name, ask_for_graph);
+    draw_shots(context);
     draw_path_entry(context);
     if (ImGui::CollapsingHeader("Facts", ImGuiTreeNodeFlags_DefaultOpen)) {
         draw_facts(session);

@@ -21,7 +21,8 @@ glm::vec3 point_under(const Session& session, glm::vec2 pixel) {
         glm::ivec2 texels(depth->desc().size);
         glm::ivec2 at = glm::clamp(glm::ivec2(glm::floor(pixel / size * glm::vec2(texels))), glm::ivec2(0), texels - 1);
         float value = 0;
-        glGetTextureSubImage(depth->id(), 0, at.x, at.y, 0, 1, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, sizeof(value), &value);
+        glGetTextureSubImage(depth->id(), 0, at.x, at.y, 0, 1, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, sizeof(value),
+                             &value);
         // Reversed depth with an infinite far plane: near / distance, 0 where there is nothing.
         if (value > 0) distance = session.constants().near_plane / value;
     }
@@ -117,10 +118,14 @@ bool CameraControl::update(PanelContext& context, const CameraInput& input) {
     if (!about) pivot_.reset();
 
     bool moved = false;
-    if (input.look) moved = look(context, camera, input);
-    else if (input.turn) moved = turn(camera, input, session.size());
-    else if (input.slide) moved = slide(camera, input, session.size());
-    else if (input.hovered && input.wheel != 0) moved = dolly(camera, input, point_under(session, input.pixel));
+    if (input.look)
+        moved = look(context, camera, input);
+    else if (input.turn)
+        moved = turn(camera, input, session.size());
+    else if (input.slide)
+        moved = slide(camera, input, session.size());
+    else if (input.hovered && input.wheel != 0)
+        moved = dolly(camera, input, point_under(session, input.pixel));
     if (!moved) return false;
     session.set_camera(camera);
     context.ui.redraw();

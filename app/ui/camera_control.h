@@ -1,6 +1,6 @@
 #pragma once
-// The camera by mouse and keys: fly, turn about a surface, slide, dolly. It knows nothing of windows: it is told what the
-// pointer did over the picture.
+// The camera by mouse and keys: fly, turn about a surface, slide, dolly. It knows nothing of windows: it is told what
+// the pointer did over the picture.
 
 #include "app/panels/panel.h"
 
@@ -8,10 +8,10 @@ namespace bounce {
 
 /// What happened over the picture since the last frame.
 struct CameraInput {
-    bool hovered = false;            ///< the pointer is over the picture
+    bool hovered = false;                           ///< the pointer is over the picture
     bool look = false, turn = false, slide = false; ///< drags that began there
-    glm::vec2 moved{0};              ///< of the pointer, pixels of the picture
-    glm::vec2 pixel{0};              ///< where it is, pixels of the picture ((0.5, 0.5): centre of the top left one)
+    glm::vec2 moved{0};                             ///< of the pointer, pixels of the picture
+    glm::vec2 pixel{0}; ///< where it is, pixels of the picture ((0.5, 0.5): centre of the top left one)
     float wheel = 0;
     bool forward = false, back = false, left = false, right = false, up = false, down = false, fast = false;
     float seconds = 0; ///< since the last frame

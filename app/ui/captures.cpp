@@ -45,8 +45,11 @@ void start_recording(PanelContext& context) {
     std::error_code ignored;
     std::string stem = capture_stem(context.session);
     int take = 1;
-    auto pattern = [&] { return (fs::path(capture.folder) / fmt::format("{}_take{}_", stem, take)).lexically_normal().string(); };
-    while (fs::exists(pattern() + "0000.png", ignored)) ++take;
+    auto pattern = [&] {
+        return (fs::path(capture.folder) / fmt::format("{}_take{}_", stem, take)).lexically_normal().string();
+    };
+    while (fs::exists(pattern() + "0000.png", ignored))
+        ++take;
     capture.pattern = pattern() + "%04d.png";
     capture.recording = true;
     capture.written = 0;

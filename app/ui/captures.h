@@ -8,8 +8,8 @@ namespace bounce {
 /// Writes the present picture (".png" or ".exr") to a new name in the capture folder. Throws Error.
 void capture_picture(PanelContext& context, const std::string& extension);
 
-/// From the next frame on each one is written, and time goes on by one frame each. Throws Error when the folder cannot be
-/// written.
+/// From the next frame on each one is written, and time goes on by one frame each. Throws Error when the folder cannot
+/// be written.
 void start_recording(PanelContext& context);
 void stop_recording(PanelContext& context);
 /// Writes the frame that was just rendered; stops when enough are.

@@ -23,13 +23,19 @@ void set_params(json& entry, const PassNode& node) {
     json params = entry.value("params", json::object());
     for (const Parameter& parameter : node.parameters.all()) {
         const std::string& name = parameter.info.name;
-        if (parameter.value == parameter.info.default_value) params.erase(name);
-        else params[name] = value_json(parameter);
+        if (parameter.value == parameter.info.default_value)
+            params.erase(name);
+        else
+            params[name] = value_json(parameter);
     }
-    if (params.empty()) entry.erase("params");
-    else entry["params"] = params;
-    if (node.enabled) entry.erase("enabled");
-    else entry["enabled"] = false;
+    if (params.empty())
+        entry.erase("params");
+    else
+        entry["params"] = params;
+    if (node.enabled)
+        entry.erase("enabled");
+    else
+        entry["enabled"] = false;
 }
 
 } // namespace
@@ -68,7 +74,8 @@ fs::path graph_preset_path(const std::string& name) {
 fs::path save_graph_preset(const Session& session, const std::string& name, bool overwrite) {
     fs::path path = graph_preset_path(name);
     std::error_code ignored;
-    if (fs::exists(path, ignored) && !overwrite) throw Error("'" + path.string() + "' is there already: tick 'overwrite', or take another name");
+    if (fs::exists(path, ignored) && !overwrite)
+        throw Error("'" + path.string() + "' is there already: tick 'overwrite', or take another name");
     write_file_atomically(path, graph_preset_text(session));
     return path;
 }

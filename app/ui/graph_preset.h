@@ -7,8 +7,8 @@
 
 namespace bounce {
 
-/// The loaded graph's file with the values and switches of the panels in the places of its own. Throws Error when the file
-/// is not the one that was loaded any more.
+/// The loaded graph's file with the values and switches of the panels in the places of its own. Throws Error when the
+/// file is not the one that was loaded any more.
 std::string graph_preset_text(const Session& session);
 
 /// Where a preset of that name goes: assets/graphs/NAME.json, or the path when it is one. Throws Error for a bad name.

@@ -48,7 +48,8 @@ const std::vector<KeyBinding>& key_bindings() {
 KeyCommand command_of(const std::string& chord) {
     for (const KeyBinding& binding : key_bindings()) {
         if (binding.command == KeyCommand::none) continue;
-        if (std::find(binding.chords.begin(), binding.chords.end(), chord) != binding.chords.end()) return binding.command;
+        if (std::find(binding.chords.begin(), binding.chords.end(), chord) != binding.chords.end())
+            return binding.command;
     }
     return KeyCommand::none;
 }

@@ -70,12 +70,13 @@ bool drag_splitters(LayoutState& layout, const Areas& areas, float scale) {
         float height = areas.lower_right.min.y + areas.lower_right.size.y;
         float moved = splitter("right", {areas.upper_right.min.x - gap, 0}, {gap, height}, true, dragged);
         if (moved != 0) layout.right = limit((areas.upper_right.size.x - moved) / scale);
-        moved = splitter("split", {areas.upper_right.min.x, areas.upper_right.size.y}, {areas.upper_right.size.x, gap}, false,
-                         dragged);
+        moved = splitter("split", {areas.upper_right.min.x, areas.upper_right.size.y}, {areas.upper_right.size.x, gap},
+                         false, dragged);
         if (moved != 0) layout.right_split = std::clamp((areas.upper_right.size.y + moved) / height, 0.1f, 0.9f);
     }
     if (areas.log.visible()) {
-        float moved = splitter("log", {areas.log.min.x, areas.log.min.y - gap}, {areas.log.size.x, gap}, false, dragged);
+        float moved =
+            splitter("log", {areas.log.min.x, areas.log.min.y - gap}, {areas.log.size.x, gap}, false, dragged);
         if (moved != 0) layout.log_height = std::clamp((areas.log.size.y - moved) / scale, 60.0f, 600.0f);
     }
     ImGui::End();

@@ -51,10 +51,12 @@ void ask_for_graph(PanelContext& context, const std::string& name) {
 
 void ask_for_file(PanelContext& context, const std::string& path) {
     std::string extension = fs::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
     if (extension == ".gltf" || extension == ".glb") return ask_for_shot(context, path);
     if (extension != ".json") {
-        return context.ui.say("'" + path + "' cannot be opened: a .gltf, a .glb, or a shot or graph as .json can", true);
+        return context.ui.say("'" + path + "' cannot be opened: a .gltf, a .glb, or a shot or graph as .json can",
+                              true);
     }
     try {
         auto root = nlohmann::json::parse(read_file(path), nullptr, true, true);

@@ -36,7 +36,8 @@ bool same_place(const Node& a, const Node& b) {
 }
 
 const Node* node_of(const Scene& scene, int light) {
-    auto found = std::find_if(scene.nodes.begin(), scene.nodes.end(), [&](const Node& node) { return node.light == light; });
+    auto found =
+        std::find_if(scene.nodes.begin(), scene.nodes.end(), [&](const Node& node) { return node.light == light; });
     return found == scene.nodes.end() ? nullptr : &*found;
 }
 
@@ -92,7 +93,8 @@ json lights_json(const Session& session) {
 }
 
 /// The name under which a file that was `name` beside the old shot is found from the new one.
-template <typename Find> std::string moved_name(const std::string& name, const fs::path& from, const fs::path& to, Find find) {
+template <typename Find>
+std::string moved_name(const std::string& name, const fs::path& from, const fs::path& to, Find find) {
     fs::path meant = fs::weakly_canonical(find(name, from));
     try {
         if (fs::weakly_canonical(find(name, to)) == meant) return name;
@@ -111,11 +113,14 @@ json original(const Shot& shot, const fs::path& folder) {
     };
     scene(root);
     if (root.contains("objects")) {
-        for (json& object : root["objects"]) scene(object);
+        for (json& object : root["objects"])
+            scene(object);
     }
     if (root.contains("environment")) {
         json& environment = root["environment"];
-        json* map = environment.is_string() ? &environment : environment.is_object() && environment.contains("map") ? &environment["map"] : nullptr;
+        json* map = environment.is_string()                                  ? &environment
+                    : environment.is_object() && environment.contains("map") ? &environment["map"]
+                                                                             : nullptr;
         if (map) *map = moved_name(map->get<std::string>(), from, folder, find_scene_file);
     }
     return root;
@@ -170,7 +175,8 @@ std::string unsaved_edits(const Session& session, const SceneBaseline& opened) {
     size_t edited = 0;
     for (size_t i = 0; i < now.size() && i < opened.materials.size(); ++i) {
         const Material &a = now[i], &b = opened.materials[i];
-        edited += a.base_colour != b.base_colour || a.metallic != b.metallic || a.roughness != b.roughness || a.emission != b.emission;
+        edited += a.base_colour != b.base_colour || a.metallic != b.metallic || a.roughness != b.roughness ||
+                  a.emission != b.emission;
     }
     if (!edited) return {};
     return fmt::format("{} edited material{}: shot files hold none", edited, edited == 1 ? "" : "s");
@@ -195,7 +201,8 @@ fs::path save_shot(PanelContext& context) {
     try {
         text = shot_text(context.session, context.ui.window.opened, folder);
     } catch (const nlohmann::json::exception& problem) {
-        throw Error("'" + context.session.shot().path.string() + "' is not the shot that was opened any more: " + problem.what());
+        throw Error("'" + context.session.shot().path.string() +
+                    "' is not the shot that was opened any more: " + problem.what());
     }
     fs::path path = new_file(folder.string(), context.session.shot().name + "_view", ".json");
     write_file_atomically(path, text);
@@ -207,9 +214,12 @@ fs::path save_shot(PanelContext& context) {
 
 /// For a shell: quoted where a name needs it.
 static std::string quoted(const std::string& text) {
-    if (text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./,:=@%") == std::string::npos) return text;
+    if (text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./,:=@%") ==
+        std::string::npos)
+        return text;
     std::string out = "'";
-    for (char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    for (char c : text)
+        out += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return out + "'";
 }
 
@@ -218,7 +228,9 @@ std::string reproducing_command(const PanelContext& context) {
     const CaptureState& capture = context.ui.window.capture;
     std::string line = session.command_line("picture.png");
     if (!differs_from_shot(session, context.ui.window.opened)) return line;
-    if (capture.saved_shot.empty() || state_text(context, fs::path(capture.saved_shot).parent_path()) != capture.saved_state) return {};
+    if (capture.saved_shot.empty() ||
+        state_text(context, fs::path(capture.saved_shot).parent_path()) != capture.saved_state)
+        return {};
     // The saved shot begins at the time that is shown: its first frame is the picture.
     std::string start = "bounce render " + session.options().shot;
     std::string rest = line.substr(std::min(start.size(), line.size()));

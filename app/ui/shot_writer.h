@@ -7,8 +7,8 @@
 
 namespace bounce {
 
-/// The shot as a person left it: camera, lights, environment, size, time. What a shot file cannot hold (materials) is not
-/// in it: see unsaved_edits(). `folder`: where the file will lie, for relative names of scenes. Throws Error.
+/// The shot as a person left it: camera, lights, environment, size, time. What a shot file cannot hold (materials) is
+/// not in it: see unsaved_edits(). `folder`: where the file will lie, for relative names of scenes. Throws Error.
 std::string shot_text(const Session& session, const SceneBaseline& opened, const std::filesystem::path& folder);
 
 /// Whether the picture is not that of the shot file any more: the camera, lights or environment were changed.
@@ -19,7 +19,8 @@ std::string unsaved_edits(const Session& session, const SceneBaseline& opened);
 /// Writes a new shot file into the capture folder and remembers it. Throws Error.
 std::filesystem::path save_shot(PanelContext& context);
 
-/// The command line that makes the picture without the window. Empty while it would not: then the shot must be saved first.
+/// The command line that makes the picture without the window. Empty while it would not: then the shot must be saved
+/// first.
 std::string reproducing_command(const PanelContext& context);
 
 } // namespace bounce

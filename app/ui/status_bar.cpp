@@ -43,7 +43,8 @@ void draw_status_bar(PanelContext& context, const Area& area, const Capabilities
     UiState& ui = context.ui;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ImGui::GetFontSize() * 0.6f, ImGui::GetFontSize() * 0.3f});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.10f, 0.10f, 0.10f, 1));
-    begin_area("##status", area, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
+    begin_area("##status", area,
+               ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
 
     if (size_t problems = session.graph().problems().size()) draw_problems(context, problems);
     ImGui::TextColored(k_dim_colour, "%s", short_renderer(capabilities.renderer).c_str());
@@ -54,14 +55,19 @@ void draw_status_bar(PanelContext& context, const Area& area, const Capabilities
     gap();
     float ms = recent_ms(ui);
     bool running = !ui.paused || ui.render_always || ui.window.capture.recording;
-    if (running && ms > 0) ImGui::Text("%.1f ms  %.0f fps", double(ms), 1000.0 / double(ms));
-    else ImGui::Text("%.1f ms", double(ms));
+    if (running && ms > 0)
+        ImGui::Text("%.1f ms  %.0f fps", double(ms), 1000.0 / double(ms));
+    else
+        ImGui::Text("%.1f ms", double(ms));
     help("Time of a whole frame, panels and display included.");
     gap();
     ImGui::TextColored(k_dim_colour, "passes %.2f ms", session.graph().frame_ms());
     help("GPU time of all passes: the sum of their medians.");
     gap();
-    const char* state = ui.window.capture.recording ? "recording" : !ui.paused ? "playing" : ui.render_always ? "rendering" : "paused";
+    const char* state = ui.window.capture.recording ? "recording"
+                        : !ui.paused                ? "playing"
+                        : ui.render_always          ? "rendering"
+                                                    : "paused";
     ImGui::TextColored(ui.paused && !ui.render_always ? k_dim_colour : k_accent_colour, "%s", state);
     gap();
     ImGui::TextColored(k_dim_colour, "frame %d", session.frame());

@@ -18,10 +18,10 @@ float unit = 1;
 
 std::string first_of(const std::vector<std::string>& names) {
     std::vector<fs::path> folders = {root_folder() / "fonts"};
-    for (const char* folder : {"/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/TTF", "/usr/share/fonts/dejavu-sans-fonts",
-                               "/usr/share/fonts/dejavu-sans-mono-fonts", "/usr/share/fonts/dejavu",
-                               "/usr/share/fonts/truetype/noto", "/usr/share/fonts/noto",
-                               "/usr/share/fonts/truetype/liberation", "/usr/share/fonts/liberation"}) {
+    for (const char* folder :
+         {"/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/TTF", "/usr/share/fonts/dejavu-sans-fonts",
+          "/usr/share/fonts/dejavu-sans-mono-fonts", "/usr/share/fonts/dejavu", "/usr/share/fonts/truetype/noto",
+          "/usr/share/fonts/noto", "/usr/share/fonts/truetype/liberation", "/usr/share/fonts/liberation"}) {
         folders.emplace_back(folder);
     }
     std::error_code ignored;
@@ -42,7 +42,8 @@ ImFont* load(const std::vector<std::string>& names, float pixels) {
     ImFontConfig config;
     config.OversampleH = 2;
     config.OversampleV = 1;
-    if (ImFont* font = file.empty() ? nullptr : atlas.AddFontFromFileTTF(file.c_str(), pixels, &config, ranges)) return font;
+    if (ImFont* font = file.empty() ? nullptr : atlas.AddFontFromFileTTF(file.c_str(), pixels, &config, ranges))
+        return font;
     ImFontConfig plain;
     plain.SizePixels = pixels;
     return atlas.AddFontDefault(&plain);
@@ -52,7 +53,8 @@ ImFont* load(const std::vector<std::string>& names, float pixels) {
 
 void load_fonts(float scale, float pixel_ratio) {
     ImGui::GetIO().Fonts->Clear();
-    load({"DejaVuSans.ttf", "NotoSans-Regular.ttf", "LiberationSans-Regular.ttf"}, float(int(14 * scale * pixel_ratio + 0.5f)));
+    load({"DejaVuSans.ttf", "NotoSans-Regular.ttf", "LiberationSans-Regular.ttf"},
+         float(int(14 * scale * pixel_ratio + 0.5f)));
     fixed = load({"DejaVuSansMono.ttf", "NotoSansMono-Regular.ttf", "LiberationMono-Regular.ttf"},
                  float(int(13 * scale * pixel_ratio + 0.5f)));
     ImGui::GetIO().FontGlobalScale = 1 / pixel_ratio;
@@ -125,6 +127,8 @@ void apply_style(float scale) {
     c[ImGuiCol_PlotLines] = accent(0.9f);
     c[ImGuiCol_PlotHistogram] = accent(0.75f);
     c[ImGuiCol_TextSelectedBg] = accent(0.35f);
+    c[ImGuiCol_TitleBg] = grey(0.17f);
+    c[ImGuiCol_TitleBgActive] = grey(0.22f);
     c[ImGuiCol_NavHighlight] = accent(0.8f);
     c[ImGuiCol_TableHeaderBg] = grey(0.19f);
     c[ImGuiCol_TableBorderStrong] = grey(0.25f);
@@ -143,11 +147,13 @@ void help(const char* text) {
 
 void fact(const char* name, const char* format, ...) {
     ImGui::TextColored(k_dim_colour, "%s", name);
-    ImGui::SameLine(ImGui::GetFontSize() * 7.5f);
+    ImGui::SameLine(ImGui::GetFontSize() * 5.6f);
+    ImGui::PushTextWrapPos(0);
     va_list arguments;
     va_start(arguments, format);
     ImGui::TextV(format, arguments);
     va_end(arguments);
+    ImGui::PopTextWrapPos();
 }
 
 } // namespace bounce

@@ -20,7 +20,7 @@ inline const ImVec4 k_good_colour{0.50f, 0.82f, 0.50f, 1};
 inline const ImVec4 k_dim_colour{0.60f, 0.60f, 0.62f, 1};
 inline const ImVec4 k_accent_colour{0.36f, 0.62f, 0.92f, 1};
 
-/// A small "(?)"-less help: the text appears when the last item is hovered.
+/// A tooltip of the last item.
 void help(const char* text);
 /// "name   value" on one line, the value at a fixed column.
 void fact(const char* name, const char* format, ...) IM_FMTARGS(2);

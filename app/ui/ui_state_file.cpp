@@ -23,7 +23,8 @@ std::filesystem::path state_path() {
 }
 
 /// Sets `to` when the key is there; a value of another type or out of range throws.
-template <typename T> void get(const json& from, const char* key, T& to) {
+template <typename T>
+void get(const json& from, const char* key, T& to) {
     if (from.contains(key)) to = from.at(key).get<T>();
 }
 
@@ -86,7 +87,8 @@ WindowState state_from(const json& root) {
     get(root, "capture_folder", state.capture.folder);
     get(root, "capture_frames", state.capture.frames);
     if (root.contains("bookmarks")) {
-        for (const json& value : root.at("bookmarks")) state.bookmarks.push_back(bookmark_from(value));
+        for (const json& value : root.at("bookmarks"))
+            state.bookmarks.push_back(bookmark_from(value));
     }
     return state;
 }
@@ -138,7 +140,8 @@ void save_window_state(const WindowState& state) {
                                      {"vfov", mark.camera.vfov}});
     }
     try {
-        // Names of files may be no UTF-8: what cannot be written as such is replaced rather than lost with all the rest.
+        // Names of files may be no UTF-8: what cannot be written as such is replaced rather than lost with all the
+        // rest.
         write_file_atomically(state_path(), root.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
     } catch (const std::exception& error) {
         spdlog::warn("the window's state is not kept: {}", error.what());

@@ -5,8 +5,8 @@
 
 namespace bounce {
 
-/// The state of the last run; defaults where there is none. A damaged file, or a damaged part of it, is ignored with one
-/// line in the log.
+/// The state of the last run; defaults where there is none. A damaged file, or a damaged part of it, is ignored with
+/// one line in the log.
 WindowState load_window_state();
 /// Writes aside and renames. A folder that cannot be written costs a line in the log, no more.
 void save_window_state(const WindowState& state);

@@ -14,7 +14,7 @@ struct ViewOptions {
     int frames = 0;                               ///< quit after so many rendered frames; 0: when the window is closed
     std::string capture_on_exit;                  ///< a .png or .exr
     std::string dump_ui;                          ///< see widget_rects.h
-    int simulate_reset = -1;                      ///< act as if the GPU had been reset, when so many frames are rendered
+    int simulate_reset = -1; ///< act as if the GPU had been reset, when so many frames are rendered
 };
 
 class ViewerApp {
@@ -69,10 +69,10 @@ class ViewerApp {
     std::unique_ptr<Session> session_;
     Viewport viewport_;
 
-    int gui_frames_ = 3;      ///< still to be drawn: ImGui settles over a few
+    int gui_frames_ = 3;       ///< still to be drawn: ImGui settles over a few
     bool later_shown_ = false; ///< the notice of what run_later_actions() will do has been on the screen
     double next_poll_ = 0, next_play_ = 0;
-    glm::ivec2 fitting_{0};    ///< a size that the picture is to have, once it has stayed so
+    glm::ivec2 fitting_{0}; ///< a size that the picture is to have, once it has stayed so
     double fitting_since_ = 0;
     int rendered_ = 0;
     bool reset_simulated_ = false;

@@ -26,14 +26,21 @@ void ViewerApp::obey(const std::string& chord) {
 
 void ViewerApp::obey_time(KeyCommand command) {
     switch (command) {
-    case KeyCommand::play: ui_.paused = !ui_.paused; break;
-    case KeyCommand::step: ui_.single_step = true; break;
+    case KeyCommand::play:
+        ui_.paused = !ui_.paused;
+        break;
+    case KeyCommand::step:
+        ui_.single_step = true;
+        break;
     case KeyCommand::first_frame:
         session_->set_frame(0);
         ui_.redraw();
         break;
-    case KeyCommand::render_always: ui_.render_always = !ui_.render_always; break;
-    default: break;
+    case KeyCommand::render_always:
+        ui_.render_always = !ui_.render_always;
+        break;
+    default:
+        break;
     }
 }
 
@@ -47,8 +54,12 @@ static const Bookmark* bookmark_of(const WindowState& state, const std::string& 
 
 void ViewerApp::obey_camera(KeyCommand command, const std::string& chord) {
     switch (command) {
-    case KeyCommand::frame_scene: session_->set_camera(camera_of_whole_scene(*session_), true); break;
-    case KeyCommand::shot_camera: session_->follow_shot_camera(); break;
+    case KeyCommand::frame_scene:
+        session_->set_camera(camera_of_whole_scene(*session_), true);
+        break;
+    case KeyCommand::shot_camera:
+        session_->follow_shot_camera();
+        break;
     case KeyCommand::add_bookmark: {
         const std::string& shot = session_->options().shot;
         auto here = [&](const Bookmark& mark) { return mark.shot == shot; };
@@ -64,16 +75,22 @@ void ViewerApp::obey_camera(KeyCommand command, const std::string& chord) {
         ui_.say(mark->name);
         break;
     }
-    case KeyCommand::reset_zoom: ui_.window.image_zoom = 1; return;
-    case KeyCommand::lock_cursor: ui_.cursor_locked = !ui_.cursor_locked && ui_.cursor_pixel.x >= 0; return;
+    case KeyCommand::reset_zoom:
+        ui_.window.image_zoom = 1;
+        return;
+    case KeyCommand::lock_cursor:
+        ui_.cursor_locked = !ui_.cursor_locked && ui_.cursor_pixel.x >= 0;
+        return;
     case KeyCommand::unpin:
-        if (ui_.show_keys) ui_.show_keys = false;
+        if (ui_.show_keys)
+            ui_.show_keys = false;
         else {
             ui_.pinned.clear();
             ui_.viewer = {};
         }
         return;
-    default: return;
+    default:
+        return;
     }
     ui_.redraw();
 }
@@ -81,12 +98,23 @@ void ViewerApp::obey_camera(KeyCommand command, const std::string& chord) {
 void ViewerApp::obey_files(KeyCommand command) {
     PanelContext panels = context();
     switch (command) {
-    case KeyCommand::capture_png: capture_picture(panels, ".png"); break;
-    case KeyCommand::capture_exr: capture_picture(panels, ".exr"); break;
-    case KeyCommand::record: ui_.window.capture.recording ? stop_recording(panels) : start_recording(panels); break;
-    case KeyCommand::save_shot: save_shot(panels); break;
-    case KeyCommand::reload_shot: ask_for_shot(panels, session_->options().shot); break;
-    default: break;
+    case KeyCommand::capture_png:
+        capture_picture(panels, ".png");
+        break;
+    case KeyCommand::capture_exr:
+        capture_picture(panels, ".exr");
+        break;
+    case KeyCommand::record:
+        ui_.window.capture.recording ? stop_recording(panels) : start_recording(panels);
+        break;
+    case KeyCommand::save_shot:
+        save_shot(panels);
+        break;
+    case KeyCommand::reload_shot:
+        ask_for_shot(panels, session_->options().shot);
+        break;
+    default:
+        break;
     }
 }
 
@@ -96,14 +124,30 @@ void ViewerApp::obey_window(KeyCommand command) {
         make_interface();
     };
     switch (command) {
-    case KeyCommand::show_keys: ui_.show_keys = !ui_.show_keys; break;
-    case KeyCommand::show_log: ui_.show_log = !ui_.show_log; break;
-    case KeyCommand::show_left: ui_.window.layout.show_left = !ui_.window.layout.show_left; break;
-    case KeyCommand::show_right: ui_.window.layout.show_right = !ui_.window.layout.show_right; break;
-    case KeyCommand::fullscreen: window_->toggle_fullscreen(); break;
-    case KeyCommand::larger_interface: scale(1.1f); break;
-    case KeyCommand::smaller_interface: scale(1 / 1.1f); break;
-    case KeyCommand::quit: window_->close(); break;
+    case KeyCommand::show_keys:
+        ui_.show_keys = !ui_.show_keys;
+        break;
+    case KeyCommand::show_log:
+        ui_.show_log = !ui_.show_log;
+        break;
+    case KeyCommand::show_left:
+        ui_.window.layout.show_left = !ui_.window.layout.show_left;
+        break;
+    case KeyCommand::show_right:
+        ui_.window.layout.show_right = !ui_.window.layout.show_right;
+        break;
+    case KeyCommand::fullscreen:
+        window_->toggle_fullscreen();
+        break;
+    case KeyCommand::larger_interface:
+        scale(1.1f);
+        break;
+    case KeyCommand::smaller_interface:
+        scale(1 / 1.1f);
+        break;
+    case KeyCommand::quit:
+        window_->close();
+        break;
     case KeyCommand::undo:
         ui_.say(undo_.next_undo().empty() ? "nothing to undo" : "undone: " + undo_.next_undo());
         undo_.undo();
@@ -114,7 +158,8 @@ void ViewerApp::obey_window(KeyCommand command) {
         undo_.redo();
         ui_.redraw();
         break;
-    default: break;
+    default:
+        break;
     }
 }
 

@@ -17,8 +17,12 @@ struct Tab {
     void (*draw)(PanelContext&);
 };
 
-const std::vector<Tab> k_left = {{"Scene", draw_scene_panel}, {"Camera", draw_camera_panel}, {"Compare", draw_compare_panel}, {"Capture", draw_capture_panel}};
-const std::vector<Tab> k_upper = {{"Graph", draw_graph_panel}, {"Resources", draw_resources_panel}, {"Shaders", draw_shaders_panel}};
+const std::vector<Tab> k_left = {{"Scene", draw_scene_panel},
+                                 {"Camera", draw_camera_panel},
+                                 {"Compare", draw_compare_panel},
+                                 {"Capture", draw_capture_panel}};
+const std::vector<Tab> k_upper = {
+    {"Graph", draw_graph_panel}, {"Resources", draw_resources_panel}, {"Shaders", draw_shaders_panel}};
 const std::vector<Tab> k_lower = {{"Parameters", draw_parameters_panel}, {"Pixel", draw_inspector_panel}};
 
 /// A panel that meets bad input says so, and the frame goes on.
@@ -31,7 +35,8 @@ void draw_panel(const Tab& tab, PanelContext& context) {
 }
 
 /// `shown`: the tab in front; changed by a person, or by what asks for a tab.
-void draw_tabs(const char* name, const Area& area, const std::vector<Tab>& tabs, std::string& shown, bool first, PanelContext& context) {
+void draw_tabs(const char* name, const Area& area, const std::vector<Tab>& tabs, std::string& shown, bool first,
+               PanelContext& context) {
     if (!area.visible()) return;
     std::string& asked = context.ui.window.select_tab;
     begin_area(name, area);
@@ -67,7 +72,8 @@ void ViewerApp::draw() {
     begin_edit_frame();
     ImVec2 display = ImGui::GetIO().DisplaySize;
     Areas areas = arrange(ui_.window.layout, display, scale, ui_.show_log);
-    if (drag_splitters(ui_.window.layout, areas, scale)) areas = arrange(ui_.window.layout, display, scale, ui_.show_log);
+    if (drag_splitters(ui_.window.layout, areas, scale))
+        areas = arrange(ui_.window.layout, display, scale, ui_.show_log);
     draw_panels(panels, areas);
     viewport_.draw(panels, areas.viewport, *window_);
     draw_status_bar(panels, areas.status, window_->capabilities());
@@ -97,7 +103,8 @@ void ViewerApp::draw_keys_window(PanelContext& panels) {
     ImGui::SetNextWindowBgAlpha(0.97f);
     ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x * 0.95f, display.y * 0.95f});
     ImGui::SetNextWindowFocus();
-    if (ImGui::Begin("Keys", &ui_.show_keys, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_AlwaysAutoResize)) {
+    if (ImGui::Begin("Keys", &ui_.show_keys,
+                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_AlwaysAutoResize)) {
         draw_keys_panel(panels);
     }
     ImGui::End();

@@ -28,8 +28,8 @@ class Viewport {
     void overlay(PanelContext& context, const Area& area, const Area& picture) const;
 
     std::unique_ptr<TextureView> view_;
-    ViewerSettings shown_;     ///< of the last draw
-    std::string failure_;      ///< why there is no picture
+    ViewerSettings shown_; ///< of the last draw
+    std::string failure_;  ///< why there is no picture
     uint64_t drawn_frame_ = ~0ull;
     GLuint drawn_texture_ = 0;
     CameraControl control_;

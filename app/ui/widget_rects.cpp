@@ -60,7 +60,8 @@ void end_widget_frame(const PanelContext& context) {
         json["parameters"][name] = text;
     }
     json["widgets"] = nlohmann::json::object();
-    for (const auto& [name, r] : widgets) json["widgets"][name] = {r.x, r.y, r.z, r.w};
+    for (const auto& [name, r] : widgets)
+        json["widgets"][name] = {r.x, r.y, r.z, r.w};
 
     // Aside and renamed, as everywhere, but not forced to the disk: this happens many times a second.
     std::filesystem::path aside = dump_file;

@@ -1,6 +1,6 @@
 #pragma once
-// What the window keeps beside the session: its layout, how large pictures are rendered, bookmarks, captures. Most of it
-// lives on between runs (ui_state_file.h).
+// What the window keeps beside the session: its layout, how large pictures are rendered, bookmarks, captures. Most of
+// it lives on between runs (ui_state_file.h).
 
 #include "scene/scene.h"
 
@@ -21,8 +21,8 @@ struct LayoutState {
 
 /// How large the picture is rendered.
 struct PictureSizing {
-    bool fit = true;   ///< the viewport's size; else `fixed`, or the shot's
-    float scale = 1;   ///< share of it: slow machines render fewer pixels
+    bool fit = true;     ///< the viewport's size; else `fixed`, or the shot's
+    float scale = 1;     ///< share of it: slow machines render fewer pixels
     glm::ivec2 fixed{0}; ///< 0: the shot's own size
 };
 
@@ -42,11 +42,11 @@ struct SceneBaseline {
 
 struct CaptureState {
     std::string folder = ".";
-    int frames = 60;       ///< wanted of a numbered sequence; 0: until stopped
+    int frames = 60; ///< wanted of a numbered sequence; 0: until stopped
     bool recording = false;
     int written = 0;
-    std::string pattern;   ///< of the sequence: "…_%04d.png"
-    std::string last;      ///< what was written last
+    std::string pattern; ///< of the sequence: "…_%04d.png"
+    std::string last;    ///< what was written last
 
     std::string saved_shot;  ///< the shot file that was saved last,
     std::string saved_state; ///< and what it holds: another state makes it stale
@@ -66,8 +66,8 @@ struct WindowState {
 
     // Not kept between runs.
     SceneBaseline opened;
-    std::string select_tab;     ///< tab to bring to the front at the next frame
-    float image_zoom = 1;       ///< of the viewport's picture, by Ctrl + wheel
+    std::string select_tab;       ///< tab to bring to the front at the next frame
+    float image_zoom = 1;         ///< of the viewport's picture, by Ctrl + wheel
     glm::vec2 image_centre{0.5f}; ///< part of the picture in the viewport's middle
     std::vector<std::function<void()>> later;
 

@@ -3,6 +3,7 @@
 #include "core/parameters.h"
 #include "core/text.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <regex>
 
@@ -72,6 +73,9 @@ bool parse_parameter_line(std::string_view line, ParameterInfo& info) {
         }
         info.kind = ParameterKind::enumeration;
         info.choices = split(rest.substr(1, close - 1), ',');
+        if (std::find(info.choices.begin(), info.choices.end(), "") != info.choices.end()) {
+            throw Error("a choice of '" + info.name + "' has no name: they are written {a, b, c}");
+        }
         rest = trim(rest.substr(close + 1));
     } else if (info.kind == ParameterKind::vec3) {
         info.kind = ParameterKind::colour;

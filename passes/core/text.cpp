@@ -26,6 +26,7 @@ std::optional<std::string> nearest_name(std::string_view name, const std::vector
     size_t best_distance = 0;
     for (const std::string& candidate : candidates) {
         size_t distance = edit_distance(name, candidate);
+        if (name.size() >= 3 && candidate.starts_with(name)) distance = std::min<size_t>(distance, 2); // cut short
         if (!best || distance < best_distance) {
             best = &candidate;
             best_distance = distance;

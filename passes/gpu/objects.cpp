@@ -41,7 +41,10 @@ void Buffer::update(uint64_t offset, uint64_t bytes, const void* data) const {
 }
 
 void Buffer::clear(uint32_t value) const {
-    glClearNamedBufferData(id_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
+    // OpenGL clears whole elements only: an odd length is cleared byte by byte (to the value's lowest one).
+    bool whole = bytes_ % 4 == 0;
+    glClearNamedBufferData(id_, whole ? GL_R32UI : GL_R8UI, GL_RED_INTEGER, whole ? GL_UNSIGNED_INT : GL_UNSIGNED_BYTE,
+                           &value);
 }
 
 void Buffer::read(uint64_t offset, uint64_t bytes, void* out) const {

@@ -17,9 +17,11 @@ struct ReferenceSettings {
     bool diffuse_only =
         false; ///< every material is Lambert with ρ = base colour·(1 − metallic); a shot's own flag does the same
     float occlusion_distance = 0.1f; ///< d_max of out.ambient_occlusion_dmax, as a share of the scene's diagonal
-    int roulette_depth = 4;          ///< paths end by Russian roulette only after this many bounces (unbiased)
-    bool stratified = true;          ///< Owen-scrambled Sobol points; off: independent random numbers
-    unsigned seed = 0;               ///< renders of different seeds are independent
+    /// Paths end by Russian roulette (unbiased) only after this many bounces, and only when their throughput has fallen
+    /// below k_roulette_throughput, to which the survivors are raised again.
+    int roulette_depth = 3;
+    bool stratified = true; ///< Owen-scrambled Sobol points; off: independent random numbers
+    unsigned seed = 0;      ///< renders of different seeds are independent
 
     // What does not change the result:
     int threads = 0; ///< 0 = all
