@@ -25,6 +25,8 @@ int main(int argc, char** argv) {
     add_info_command(app, chosen);
     add_new_command(app, chosen);
     add_shaders_command(app, chosen);
+    add_reference_command(app, chosen);
+    add_compare_command(app, chosen);
     add_chart_command(app, chosen);
     try {
         app.parse(argc, argv);

@@ -17,6 +17,8 @@ void add_params_command(CLI::App& app, CommandFunction& chosen);
 void add_info_command(CLI::App& app, CommandFunction& chosen);
 void add_new_command(CLI::App& app, CommandFunction& chosen);
 void add_shaders_command(CLI::App& app, CommandFunction& chosen);
+void add_reference_command(CLI::App& app, CommandFunction& chosen);
+void add_compare_command(CLI::App& app, CommandFunction& chosen);
 void add_chart_command(CLI::App& app, CommandFunction& chosen);
 
 int render_default();

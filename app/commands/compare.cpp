@@ -112,8 +112,9 @@ int compare(const CompareArguments& arguments) {
         for (const PartComparison& p : comparison.parts) {
             if (arguments.parts.empty() && p.part == "out.radiance") part = p.part;
         }
-        const Image errors =
-            relative_error_map(part_of(image, part, "the image"), part_of(reference, part, "the reference"));
+        Image a = part_of(image, part, "the image"), b = part_of(reference, part, "the reference");
+        drop_lone_alpha(a, b);
+        const Image errors = relative_error_map(a, b);
         write_png(arguments.heatmap, heat_map(errors, 0, arguments.heatmap_top, comparison.mask));
     }
     if (arguments.json)

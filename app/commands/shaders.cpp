@@ -49,6 +49,21 @@ int expand_all(const std::string& folder) {
             }
         }
     }
+    // Those that no graph uses: the program's own (the viewport, the check for NaN), with their defines' defaults.
+    for (const auto& entry : fs::recursive_directory_iterator(glsl_folder())) {
+        std::string extension = entry.path().extension().string();
+        if (extension != ".comp" && extension != ".vert" && extension != ".geom" && extension != ".frag") continue;
+        fs::path stage = entry.path().lexically_relative(glsl_folder());
+        std::string name = stage.string();
+        std::replace(name.begin(), name.end(), '/', '.');
+        if (std::any_of(done.begin(), done.end(), [&](auto& d) { return d.ends_with("." + name); })) continue;
+        Program program("alone", {stage}, glsl_folder());
+        program.scan({}, {});
+        program.scan(formats_for(program), {});
+        if (!program.errors().empty()) throw Error(program.errors().front().text());
+        write_file_atomically(fs::path(folder) / ("alone." + name), program.sources().front().text);
+        ++count;
+    }
     fmt::print("{} shaders in {}\n", count, folder);
     return 0;
 }

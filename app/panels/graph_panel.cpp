@@ -3,6 +3,7 @@
 #include "app/panels/pass_rows.h"
 #include "app/timings.h"
 #include "app/ui/marks.h"
+#include "app/ui/texture_view.h"
 #include "app/ui/widget_rects.h"
 #include "core/error.h"
 #include "core/paths.h"
@@ -31,8 +32,7 @@ void open_later(PanelContext& context, const std::string& name) {
     ui.window.ask([&session, &ui, name] {
         try {
             session.open_graph(name);
-            ui.pinned.clear();
-            ui.redraw();
+            pin(ui, session.graph(), "");
             ui.say("graph " + name);
         } catch (const Error& error) {
             ui.say(error.what(), true);
@@ -80,7 +80,8 @@ void draw_switch(PanelContext& context, const std::string& id) {
         Session& session = context.session;
         UiState& ui = context.ui;
         switch_pass(session, ui, id, on);
-        context.undo.push({(on ? "switch on " : "switch off ") + id, [&session, &ui, id, on] { switch_pass(session, ui, id, !on); },
+        context.undo.push({(on ? "switch on " : "switch off ") + id,
+                           [&session, &ui, id, on] { switch_pass(session, ui, id, !on); },
                            [&session, &ui, id, on] { switch_pass(session, ui, id, on); }});
     }
     ImGui::PopStyleVar();
@@ -93,7 +94,8 @@ void draw_time(const PassTiming& timing, double slowest) {
     float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
     auto at = [&](double ms) { return from.x + width * float(slowest > 0 ? std::min(ms / slowest, 1.0) : 0.0); };
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(from, ImVec2(std::max(at(timing.median), from.x + 1), from.y + height), ImGui::GetColorU32(k_bar_colour), 2);
+    list.AddRectFilled(from, ImVec2(std::max(at(timing.median), from.x + 1), from.y + height),
+                       ImGui::GetColorU32(k_bar_colour), 2);
     if (timing.samples > 1) {
         float y = from.y + height - 2;
         list.AddLine(ImVec2(at(timing.low), y), ImVec2(at(timing.high), y), ImGui::GetColorU32(ImGuiCol_Text), 1);
@@ -103,8 +105,8 @@ void draw_time(const PassTiming& timing, double slowest) {
 
 std::string time_text(const PassTiming& timing) {
     if (!timing.samples) return "not timed yet";
-    return fmt::format("GPU {:.3f} ms, median of {} frames\n10 to 90 % lie from {:.3f} to {:.3f} ms", timing.median, timing.samples, timing.low,
-                       timing.high);
+    return fmt::format("GPU {:.3f} ms, median of {} frames\n10 to 90 % lie from {:.3f} to {:.3f} ms", timing.median,
+                       timing.samples, timing.low, timing.high);
 }
 
 /// Values of this pass's outputs that were not finite in the newest frame.
@@ -157,16 +159,14 @@ void draw_running(PanelContext& context, const PlanPass& pass, double slowest) {
     bool clicked = ImGui::Selectable(label.c_str(), pinned, ImGuiSelectableFlags_SpanAllColumns);
     ImGui::PopStyleColor();
     note_widget("graph.pass." + pass.id);
-    if (clicked && !output.empty()) {
-        ui.pinned = pinned ? "" : output;
-        ui.redraw();
-    }
+    if (clicked && !output.empty()) pin(ui, graph, pinned ? "" : output);
     if (ImGui::IsItemHovered()) {
         ui.hovered = output;
         std::string text = pass_details(graph.model(), graph.plan(), pass) + "\n" + time_text(timing);
         if (bad) text += fmt::format("\n{} values that it wrote are not finite", bad);
         if (stale) text += "\nIts newest program is wrong: see the shaders.";
-        if (!output.empty()) text += pinned ? "\nClick to let go of " + output : "\nClick to keep " + output + " in view";
+        if (!output.empty())
+            text += pinned ? "\nClick to let go of " + output : "\nClick to keep " + output + " in view";
         show_tooltip(text);
     }
     ImGui::TableNextColumn();
@@ -188,7 +188,8 @@ void draw_totals(const Session& session) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     show_text("scene", k_dim_colour);
-    show_tooltip("geometry " + format_bytes(double(scene.geometry_bytes())) + ", textures " + format_bytes(double(scene.texture_bytes())));
+    show_tooltip("geometry " + format_bytes(double(scene.geometry_bytes())) + ", textures " +
+                 format_bytes(double(scene.texture_bytes())));
     ImGui::TableNextColumn();
     ImGui::TableNextColumn();
     show_right(fmt::format("{:.2f}", double(scene.geometry_bytes() + scene.texture_bytes()) / (1 << 20)));
@@ -201,7 +202,8 @@ void draw_graph_panel(PanelContext& context) {
     draw_choice(context);
     draw_problems(graph);
     double slowest = 0;
-    for (const PlanPass& pass : graph.plan().passes) slowest = std::max(slowest, graph.timing(pass.id).median);
+    for (const PlanPass& pass : graph.plan().passes)
+        slowest = std::max(slowest, graph.timing(pass.id).median);
     if (!ImGui::BeginTable("passes", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
     ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch, 5);
     ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthStretch, 4);
@@ -211,8 +213,10 @@ void draw_graph_panel(PanelContext& context) {
         ImGui::PushID(row.id.c_str());
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
-        if (row.plan < 0) draw_declined(context, row);
-        else draw_running(context, graph.plan().passes[size_t(row.plan)], slowest);
+        if (row.plan < 0)
+            draw_declined(context, row);
+        else
+            draw_running(context, graph.plan().passes[size_t(row.plan)], slowest);
         ImGui::PopID();
     }
     draw_totals(context.session);

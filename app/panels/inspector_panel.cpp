@@ -7,10 +7,26 @@
 #include "app/ui/widget_rects.h"
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace bounce {
 
 namespace {
+
+/// Lines broken between values only: ImGui would break a number at its point.
+std::string broken(const std::string& text, float width) {
+    std::string out, line;
+    for (size_t at = 0; at < text.size();) {
+        size_t comma = text.find(", ", at);
+        size_t end = comma == std::string::npos ? text.size() : comma + 2;
+        std::string value = text.substr(at, end - at);
+        if (!line.empty() && ImGui::CalcTextSize((line + value).c_str()).x > width)
+            out += std::exchange(line, "") + "\n";
+        line += value;
+        at = end;
+    }
+    return out + line;
+}
 
 /// A name and a value; a click copies the value.
 void draw_value(UiState& ui, const std::string& name, const std::string& text, const ImVec4& colour) {
@@ -25,7 +41,7 @@ void draw_value(UiState& ui, const std::string& name, const std::string& text, c
     show_tooltip(name + "\n" + text + "\nClick to copy.");
     ImGui::TableNextColumn();
     ImGui::PushFont(fixed_font());
-    show_wrapped(text, colour);
+    show_text(broken(text, ImGui::GetContentRegionAvail().x), colour);
     ImGui::PopFont();
     ImGui::PopID();
 }
@@ -50,7 +66,9 @@ void draw_shown(PanelContext& context) {
     glm::ivec3 size = mip_size(texture->desc(), shown.mip);
     glm::ivec2 at = texel_at(context.ui.cursor_uv, glm::ivec2(size));
     std::string place = fmt::format("texel {}, {}", at.x, at.y);
-    if (size.z > 1) place += fmt::format(", {} {}", texture->desc().kind == TextureKind::texture_3d ? "slice" : "layer", shown.layer);
+    if (size.z > 1)
+        place +=
+            fmt::format(", {} {}", texture->desc().kind == TextureKind::texture_3d ? "slice" : "layer", shown.layer);
     if (texture->desc().mips > 1) place += fmt::format(" of mip {}", shown.mip);
     show_text(shown.resource, k_accent_colour);
     ImGui::SameLine();
@@ -59,7 +77,7 @@ void draw_shown(PanelContext& context) {
     Texel texel = read_texel(*texture, shown.mip, {at, shown.layer});
     static constexpr const char* k_channels[] = {"R", "G", "B", "A"};
     for (int c = 0; c < texel.channels; ++c) {
-        Texel one{1, texel.integer, {texel.real[size_t(c)]}, {texel.whole[size_t(c)]}};
+        Texel one{1, texel.integer, texel.digits, {texel.real[size_t(c)]}, {texel.whole[size_t(c)]}};
         draw_texel(context.ui, k_channels[c], one);
     }
     ImGui::EndTable();
@@ -103,7 +121,8 @@ void draw_picture_textures(PanelContext& context, glm::ivec2 pixel) {
 void draw_inspector_panel(PanelContext& context) {
     UiState& ui = context.ui;
     glm::ivec2 size = context.session.graph().plan().size;
-    bool inside = ui.cursor_pixel.x >= 0 && ui.cursor_pixel.y >= 0 && ui.cursor_pixel.x < size.x && ui.cursor_pixel.y < size.y;
+    bool inside =
+        ui.cursor_pixel.x >= 0 && ui.cursor_pixel.y >= 0 && ui.cursor_pixel.x < size.x && ui.cursor_pixel.y < size.y;
     ImGui::Checkbox("hold", &ui.cursor_locked);
     note_widget("inspector.lock");
     show_tooltip("Keeps the pixel while the pointer goes elsewhere. Key: " + chord_of(KeyCommand::lock_cursor));

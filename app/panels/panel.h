@@ -23,6 +23,7 @@ struct ViewerSettings {
     bool encode_srgb = true;     ///< linear values are encoded for the display
     bool mark_non_finite = true; ///< NaN magenta, infinities yellow
     bool logarithmic = false;    ///< equal ratios between low and high are equal steps
+    bool operator==(const ViewerSettings&) const = default;
 };
 
 /// What the resources panel shows of a buffer.

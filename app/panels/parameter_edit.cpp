@@ -23,7 +23,8 @@ ParameterText home_of(const GraphModel& model, const std::string& id, const Para
     try {
         nlohmann::json json = nlohmann::json::parse(given->second);
         if (json.is_string() && json.get_ref<const std::string&>().starts_with("=")) {
-            json = evaluate(json.get<std::string>().substr(1), [&](const std::string& name) { return model.number(name); });
+            json = evaluate(json.get<std::string>().substr(1),
+                            [&](const std::string& name) { return model.number(name); });
             if (info.kind == ParameterKind::boolean) json = json.get<double>() != 0;
         }
         home.text = to_text(info, parse_value(info, json));
@@ -58,9 +59,11 @@ void push_undo(PanelContext& context, const std::string& what, const std::vector
 
 std::vector<NamedParameter> all_parameters(const GraphModel& model) {
     std::vector<NamedParameter> all;
-    for (const Parameter& parameter : model.graph_parameters().all()) all.push_back({"graph", &parameter});
+    for (const Parameter& parameter : model.graph_parameters().all())
+        all.push_back({"graph", &parameter});
     for (const auto& node : model.nodes()) {
-        for (const Parameter& parameter : node->parameters.all()) all.push_back({node->id(), &parameter});
+        for (const Parameter& parameter : node->parameters.all())
+            all.push_back({node->id(), &parameter});
     }
     return all;
 }
@@ -80,7 +83,8 @@ void reset_parameters(PanelContext& context, const std::vector<std::string>& nam
 
 std::string set_options(const std::vector<std::pair<std::string, std::string>>& values) {
     std::vector<std::string> parts;
-    for (const auto& [name, text] : values) parts.push_back("--set " + name + "=" + text);
+    for (const auto& [name, text] : values)
+        parts.push_back("--set " + name + "=" + text);
     return join(parts, " ");
 }
 

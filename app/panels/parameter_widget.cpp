@@ -29,7 +29,8 @@ static bool draw_reals(const ParameterInfo& info, float* values, int count) {
         return ImGui::SliderScalarN("##value", ImGuiDataType_Float, values, count, &min, &max, k_number, flags);
     }
     float largest = 0;
-    for (int i = 0; i < count; ++i) largest = std::max(largest, std::abs(values[i]));
+    for (int i = 0; i < count; ++i)
+        largest = std::max(largest, std::abs(values[i]));
     float speed = std::max(largest, 0.1f) * 0.01f;
     return ImGui::DragScalarN("##value", ImGuiDataType_Float, values, count, speed, &min, &max, k_number, flags);
 }
@@ -45,7 +46,8 @@ static bool draw_integer(const ParameterInfo& info, int& value) {
     if (has_range(info) && info.max - info.min <= 4096) {
         return ImGui::SliderInt("##value", &value, min, max, "%d", ImGuiSliderFlags_AlwaysClamp);
     }
-    return ImGui::DragInt("##value", &value, std::max(0.2f, std::abs(float(value)) * 0.01f), min, max, "%d", ImGuiSliderFlags_AlwaysClamp);
+    return ImGui::DragInt("##value", &value, std::max(0.2f, std::abs(float(value)) * 0.01f), min, max, "%d",
+                          ImGuiSliderFlags_AlwaysClamp);
 }
 
 static bool draw_choice(const std::string& name, const ParameterInfo& info, int& value) {
@@ -64,14 +66,22 @@ bool draw_parameter_widget(const std::string& name, const ParameterInfo& info, P
     at_once = info.kind == ParameterKind::boolean || info.kind == ParameterKind::enumeration;
     ImGui::SetNextItemWidth(-FLT_MIN);
     switch (info.kind) {
-    case ParameterKind::boolean: return ImGui::Checkbox("##value", &std::get<bool>(value));
-    case ParameterKind::integer: return draw_integer(info, std::get<int>(value));
-    case ParameterKind::enumeration: return draw_choice(name, info, std::get<int>(value));
-    case ParameterKind::real: return draw_reals(info, &std::get<float>(value), 1);
-    case ParameterKind::vec2: return draw_reals(info, &std::get<glm::vec2>(value).x, 2);
-    case ParameterKind::vec3: return draw_reals(info, &std::get<glm::vec3>(value).x, 3);
-    case ParameterKind::vec4: return draw_reals(info, &std::get<glm::vec4>(value).x, 4);
-    case ParameterKind::colour: return draw_colour(info, std::get<glm::vec3>(value));
+    case ParameterKind::boolean:
+        return ImGui::Checkbox("##value", &std::get<bool>(value));
+    case ParameterKind::integer:
+        return draw_integer(info, std::get<int>(value));
+    case ParameterKind::enumeration:
+        return draw_choice(name, info, std::get<int>(value));
+    case ParameterKind::real:
+        return draw_reals(info, &std::get<float>(value), 1);
+    case ParameterKind::vec2:
+        return draw_reals(info, &std::get<glm::vec2>(value).x, 2);
+    case ParameterKind::vec3:
+        return draw_reals(info, &std::get<glm::vec3>(value).x, 3);
+    case ParameterKind::vec4:
+        return draw_reals(info, &std::get<glm::vec4>(value).x, 4);
+    case ParameterKind::colour:
+        return draw_colour(info, std::get<glm::vec3>(value));
     }
     return false;
 }

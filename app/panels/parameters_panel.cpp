@@ -15,10 +15,14 @@ namespace {
 
 ImVec4 origin_colour(ParameterOrigin origin) {
     switch (origin) {
-    case ParameterOrigin::default_value: return {0.45f, 0.46f, 0.50f, 1};
-    case ParameterOrigin::graph: return {0.38f, 0.62f, 0.95f, 1};
-    case ParameterOrigin::command_line: return {0.55f, 0.82f, 0.45f, 1};
-    case ParameterOrigin::panel: return {0.98f, 0.70f, 0.28f, 1};
+    case ParameterOrigin::default_value:
+        return {0.45f, 0.46f, 0.50f, 1};
+    case ParameterOrigin::graph:
+        return {0.38f, 0.62f, 0.95f, 1};
+    case ParameterOrigin::command_line:
+        return {0.55f, 0.82f, 0.45f, 1};
+    case ParameterOrigin::panel:
+        return {0.98f, 0.70f, 0.28f, 1};
     }
     return {};
 }
@@ -32,7 +36,9 @@ std::string help_text(const std::string& name, const std::string& type, const Pa
     text += fmt::format("\nnow {}, set by {}", to_text(info, p.value),
                         p.origin == ParameterOrigin::default_value ? "nobody (the default)" : to_string(p.origin));
     if (info.is_static) text += "\ncompiled in: a change compiles the shader again, when you let go";
-    text += "\ndeclared in " + (!info.where.empty() ? info.where : name.starts_with("graph.") ? "the graph file" : "pass type " + type);
+    text += "\ndeclared in " + (!info.where.empty()          ? info.where
+                                : name.starts_with("graph.") ? "the graph file"
+                                                             : "pass type " + type);
     return text;
 }
 
@@ -43,7 +49,8 @@ void draw_mark(const Parameter& parameter) {
     if (ImGui::InvisibleButton("mark", ImVec2(side + 4, height))) ImGui::OpenPopup("menu");
     float y = from.y + (height - side) / 2;
     ImVec4 colour = origin_colour(parameter.origin);
-    ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(from.x, y), ImVec2(from.x + side, y + side), ImGui::GetColorU32(colour), 2);
+    ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(from.x, y), ImVec2(from.x + side, y + side),
+                                              ImGui::GetColorU32(colour), 2);
     show_tooltip(fmt::format("set by: {}\nClick to reset or to copy.", to_string(parameter.origin)));
 }
 
@@ -71,7 +78,8 @@ void draw_value(PanelContext& context, const std::string& id, const Parameter& p
     bool at_once = false;
     bool changed = draw_parameter_widget(before.name, info, value, at_once);
     note_widget(before.name);
-    bool begun = ImGui::IsItemActivated(), ended = ImGui::IsItemDeactivated(), edited = ImGui::IsItemDeactivatedAfterEdit();
+    bool begun = ImGui::IsItemActivated(), ended = ImGui::IsItemDeactivated(),
+         edited = ImGui::IsItemDeactivatedAfterEdit();
     if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) ImGui::OpenPopup("menu");
 
     if (begun || (changed && edit.name != before.name)) edit = {before.name, before.text, before.origin, value};
@@ -113,8 +121,9 @@ void draw_row(PanelContext& context, const NamedParameter& named, const std::str
 }
 
 bool contains(const std::string& text, const std::string& part) {
-    return std::search(text.begin(), text.end(), part.begin(), part.end(),
-                       [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); }) != text.end();
+    return std::search(text.begin(), text.end(), part.begin(), part.end(), [](unsigned char a, unsigned char b) {
+               return std::tolower(a) == std::tolower(b);
+           }) != text.end();
 }
 
 void draw_tools(PanelContext& context, const std::vector<NamedParameter>& all) {
@@ -122,7 +131,8 @@ void draw_tools(PanelContext& context, const std::vector<NamedParameter>& all) {
     char filter[96] = {};
     std::strncpy(filter, ui.parameter_filter.c_str(), sizeof filter - 1);
     ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 6.5f);
-    if (ImGui::InputTextWithHint("##filter", "filter by name or help", filter, sizeof filter)) ui.parameter_filter = filter;
+    if (ImGui::InputTextWithHint("##filter", "filter by name or help", filter, sizeof filter))
+        ui.parameter_filter = filter;
     note_widget("parameters.filter");
     ImGui::SameLine();
     ImGui::Checkbox("changed", &ui.only_changed_parameters);
@@ -165,7 +175,8 @@ void draw_parameters_panel(PanelContext& context) {
     for (size_t i = 0; i < all.size();) {
         const std::string id = all[i].id;
         size_t end = i;
-        while (end < all.size() && all[end].id == id) ++end;
+        while (end < all.size() && all[end].id == id)
+            ++end;
         const PassNode* node = model.find_node(id);
         std::string type = node ? node->entry.type : "";
         bool open = ImGui::CollapsingHeader(id.c_str(), ImGuiTreeNodeFlags_DefaultOpen);
@@ -173,7 +184,8 @@ void draw_parameters_panel(PanelContext& context) {
         if (open && ImGui::BeginTable(id.c_str(), 2, ImGuiTableFlags_SizingStretchProp)) {
             ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 5);
             ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 6);
-            for (size_t p = i; p < end; ++p) draw_row(context, all[p], type);
+            for (size_t p = i; p < end; ++p)
+                draw_row(context, all[p], type);
             ImGui::EndTable();
         }
         i = end;

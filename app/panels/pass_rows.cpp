@@ -10,7 +10,8 @@ namespace bounce {
 
 std::vector<PassRow> pass_rows(const GraphModel& model, const Plan& plan) {
     std::vector<PassRow> rows;
-    for (size_t i = 0; i < plan.passes.size(); ++i) rows.push_back({plan.passes[i].id, int(i), ""});
+    for (size_t i = 0; i < plan.passes.size(); ++i)
+        rows.push_back({plan.passes[i].id, int(i), ""});
     std::string before;
     for (const auto& node : model.nodes()) {
         auto declined = std::find_if(plan.declined.begin(), plan.declined.end(),
@@ -39,7 +40,8 @@ std::string main_output(const Plan& plan, const PlanPass& pass) {
 /// 12000 → "12,000".
 static std::string grouped(uint64_t number) {
     std::string digits = std::to_string(number);
-    for (int at = int(digits.size()) - 3; at > 0; at -= 3) digits.insert(size_t(at), ",");
+    for (int at = int(digits.size()) - 3; at > 0; at -= 3)
+        digits.insert(size_t(at), ",");
     return digits;
 }
 
@@ -47,9 +49,12 @@ std::string size_text(const PlanResource& resource) {
     if (resource.is_buffer()) return fmt::format("{} × {} B", grouped(resource.count), resource.declaration.stride);
     glm::ivec3 s = resource.texture.size;
     switch (resource.texture.kind) {
-    case TextureKind::texture_2d: return fmt::format("{}×{}", s.x, s.y);
-    case TextureKind::texture_2d_array: return fmt::format("{}×{}, {} layer{}", s.x, s.y, s.z, s.z == 1 ? "" : "s");
-    case TextureKind::texture_3d: break;
+    case TextureKind::texture_2d:
+        return fmt::format("{}×{}", s.x, s.y);
+    case TextureKind::texture_2d_array:
+        return fmt::format("{}×{}, {} layer{}", s.x, s.y, s.z, s.z == 1 ? "" : "s");
+    case TextureKind::texture_3d:
+        break;
     }
     return s.x == s.y && s.y == s.z ? fmt::format("{}³", s.x) : fmt::format("{}×{}×{}", s.x, s.y, s.z);
 }
@@ -91,7 +96,8 @@ std::string pass_details(const GraphModel& model, const Plan& plan, const PlanPa
     list("writes", [](const SlotUse& use) { return use.writes && !use.reads; });
     if (!pass.clears.empty()) {
         std::vector<std::string> names;
-        for (int clear : pass.clears) names.push_back(plan.resources[size_t(clear)].name());
+        for (int clear : pass.clears)
+            names.push_back(plan.resources[size_t(clear)].name());
         out += "\ncleared before it: " + join(names, ", ");
     }
     if (pass.barriers) out += "\nbarrier before it: " + barrier_text(pass.barriers);

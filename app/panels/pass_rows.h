@@ -13,8 +13,8 @@ struct PassRow {
     int plan = -1;        ///< index into Plan::passes; −1: it does not run
     std::string declined; ///< why
 };
-/// Plan order; a pass that does not run stands behind the one that it follows in the graph file, so that rows keep their
-/// place when a pass is switched off.
+/// Plan order; a pass that does not run stands behind the one that it follows in the graph file, so that rows keep
+/// their place when a pass is switched off.
 std::vector<PassRow> pass_rows(const GraphModel& model, const Plan& plan);
 
 /// The texture that stands for a pass: the first out.* that it writes, else the first texture; "" when it writes none.

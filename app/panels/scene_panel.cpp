@@ -49,7 +49,8 @@ void draw_facts(const Session& session) {
     fact("vertices", "%zu", facts.vertices);
     fact("materials", "%zu: %zu glossy, %zu emissive, %zu masked", facts.materials, facts.glossy_materials,
          facts.emissive_materials, facts.alpha_tested_materials);
-    fact("textures", "%zu, %s", facts.textures, format_bytes(double(gpu.texture_bytes())).c_str());
+    if (facts.textures == 0) fact("textures", "none");
+    else fact("textures", "%zu, %s", facts.textures, format_bytes(double(gpu.texture_bytes())).c_str());
     fact("geometry", "%s", format_bytes(double(gpu.geometry_bytes())).c_str());
     std::vector<std::string> lights;
     auto count = [&](size_t number, const char* what) {

@@ -29,7 +29,9 @@ namespace {
 
 void draw_state(ProgramState state) {
     switch (state) {
-    case ProgramState::good: show_text("good", k_good_colour); break;
+    case ProgramState::good:
+        show_text("good", k_good_colour);
+        break;
     case ProgramState::not_compiled:
         show_text("not compiled", k_dim_colour);
         show_tooltip("Its pass does not run.");
@@ -101,7 +103,8 @@ void draw_program(PanelContext& context, const PassNode& node, const Program& pr
         for (const std::filesystem::path& file : program.files()) {
             ImGui::TableNextRow();
             ImGui::TableNextColumn();
-            if (ImGui::Selectable(shown_path(file).c_str(), false, ImGuiSelectableFlags_SpanAllColumns)) copy(context.ui, file.string());
+            if (ImGui::Selectable(shown_path(file).c_str(), false, ImGuiSelectableFlags_SpanAllColumns))
+                copy(context.ui, file.string());
             show_tooltip(file.string() + "\nClick to copy the path.");
         }
         ImGui::TreePop();
@@ -123,14 +126,16 @@ void draw_shaders_panel(PanelContext& context) {
     }
     note_widget("shaders.count");
     ImGui::Separator();
-    for (size_t i = 0; i < problems.size(); ++i) draw_error(context, problems[i], int(i));
+    for (size_t i = 0; i < problems.size(); ++i)
+        draw_error(context, problems[i], int(i));
 
     if (!ImGui::BeginTable("programs", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
-    ImGui::TableSetupColumn("program and its files", ImGuiTableColumnFlags_WidthStretch, 5);
-    ImGui::TableSetupColumn("state", ImGuiTableColumnFlags_WidthStretch, 4);
+    ImGui::TableSetupColumn("program and its files", ImGuiTableColumnFlags_WidthStretch, 3);
+    ImGui::TableSetupColumn("state", ImGuiTableColumnFlags_WidthStretch, 2);
     ImGui::TableHeadersRow();
     for (const auto& node : graph.model().nodes()) {
-        for (const auto& program : node->programs) draw_program(context, *node, *program);
+        for (const auto& program : node->programs)
+            draw_program(context, *node, *program);
     }
     ImGui::EndTable();
 }

@@ -63,7 +63,8 @@ void draw_viewer_settings(PanelContext& context, const PlanResource& resource) {
     int channels = format_by_enum(resource.texture.format).channels;
     if (channels > 1) {
         static constexpr const char* k_names[] = {"RGB", "R", "G", "B", "A", "|RGB|"};
-        static constexpr const char* k_help[] = {"as a colour", "red", "green", "blue", "alpha", "length of the vector"};
+        static constexpr const char* k_help[] = {"as a colour", "red",   "green",
+                                                 "blue",        "alpha", "length of the vector"};
         label("channel");
         for (int c = 0; c < 6; ++c) {
             if ((c < 5 && c > channels) || (c == 5 && channels < 3)) continue;
@@ -93,10 +94,14 @@ void draw_viewer_settings(PanelContext& context, const PlanResource& resource) {
 
 std::string word_text(uint32_t word, int words) {
     switch (words) {
-    case 0: return fmt::format("{:.6g}", std::bit_cast<float>(word));
-    case 1: return fmt::format("{}", word);
-    case 2: return fmt::format("{}", int32_t(word));
-    default: return fmt::format("{:08x}", word);
+    case 0:
+        return fmt::format("{:.6g}", std::bit_cast<float>(word));
+    case 1:
+        return fmt::format("{}", word);
+    case 2:
+        return fmt::format("{}", int32_t(word));
+    default:
+        return fmt::format("{:08x}", word);
     }
 }
 
@@ -128,7 +133,8 @@ void draw_buffer_table(PanelContext& context, const PlanResource& resource) {
     std::vector<uint32_t> words(std::min(k_rows * columns, words_in_all - std::min(first, words_in_all)));
     buffer->read(first * 4, words.size() * 4, words.data());
     if (words.empty()) show_text("empty", k_dim_colour);
-    ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY;
+    ImGuiTableFlags flags =
+        ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY;
     ImVec2 size(0, std::max(ImGui::GetContentRegionAvail().y, ImGui::GetTextLineHeightWithSpacing() * 8));
     if (words.empty() || !ImGui::BeginTable("words", int(columns) + 1, flags, size)) return;
     ImGui::PushFont(fixed_font());
@@ -136,7 +142,8 @@ void draw_buffer_table(PanelContext& context, const PlanResource& resource) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         uint64_t byte = (first + at) * 4;
-        show_text(byte % stride == 0 ? fmt::format("[{}]", byte / stride) : fmt::format("+{}", byte % stride), k_dim_colour);
+        show_text(byte % stride == 0 ? fmt::format("[{}]", byte / stride) : fmt::format("+{}", byte % stride),
+                  k_dim_colour);
         for (size_t c = at; c < std::min(at + columns, words.size()); ++c) {
             ImGui::TableNextColumn();
             show_right(word_text(words[c], settings.words));

@@ -5,15 +5,25 @@
 
 namespace bounce {
 
+/// Significant decimals for the mantissa that a format has.
+static int digits_of(const Format& format) {
+    if (format.kind == FormatClass::normalised) return format.bytes / format.channels >= 2 ? 6 : 4;
+    if (format.kind != FormatClass::floating) return 0;
+    if (format.internal == GL_R11F_G11F_B10F) return 4;
+    return format.bytes / format.channels == 2 ? 5 : 0;
+}
+
 Texel read_texel(const GpuTexture& texture, int mip, glm::ivec3 at) {
     const Format& format = format_by_enum(texture.desc().format);
     at = glm::clamp(at, glm::ivec3(0), mip_size(texture.desc(), mip) - 1);
     Texel texel;
     texel.channels = format.channels;
     texel.integer = format.is_integer();
+    texel.digits = digits_of(format);
     auto read = [&](GLenum type, auto& values) {
         glPixelStorei(GL_PACK_ALIGNMENT, 1);
-        glGetTextureSubImage(texture.id(), mip, at.x, at.y, at.z, 1, 1, 1, format.transfer, type, GLsizei(sizeof values), values.data());
+        glGetTextureSubImage(texture.id(), mip, at.x, at.y, at.z, 1, 1, 1, format.transfer, type,
+                             GLsizei(sizeof values), values.data());
     };
     if (format.kind == FormatClass::unsigned_integer) {
         std::array<uint32_t, 4> values{};
@@ -33,7 +43,12 @@ std::string to_text(const Texel& texel) {
     std::string text;
     for (size_t i = 0; i < size_t(texel.channels); ++i) {
         if (i) text += ", ";
-        text += texel.integer ? fmt::format("{}", texel.whole[i]) : fmt::format("{}", texel.real[i]);
+        if (texel.integer)
+            text += fmt::format("{}", texel.whole[i]);
+        else if (texel.digits)
+            text += fmt::format("{:.{}g}", texel.real[i], texel.digits);
+        else
+            text += fmt::format("{}", texel.real[i]);
     }
     return text;
 }

@@ -14,6 +14,7 @@ namespace bounce {
 struct Texel {
     int channels = 0;
     bool integer = false;
+    int digits = 0; ///< that tell the format's values apart; 0: as many as a float needs
     std::array<float, 4> real{};
     std::array<int64_t, 4> whole{};
 };
@@ -21,7 +22,8 @@ struct Texel {
 /// Reads back one texel and nothing more (x, y, layer or slice), clamped to the mip's size. Stalls.
 Texel read_texel(const GpuTexture& texture, int mip, glm::ivec3 at);
 
-/// "0.25, 1, 0.1": the shortest decimals that read back as the same floats; "nan", "inf".
+/// "0.25, 1, 0.1": decimals short enough to read and long enough to tell any two values of the format apart; "nan",
+/// "inf".
 std::string to_text(const Texel& texel);
 bool is_finite(const Texel& texel);
 

@@ -38,9 +38,17 @@ ViewerSettings shown_view(const Graph& graph, const UiState& ui) {
     for (const std::string& name : {ui.hovered, ui.pinned, ui.viewer.resource, std::string("out.display")}) {
         const GpuTexture* texture = name.empty() ? nullptr : graph.texture(name);
         if (!texture || !*texture) continue;
-        return clamp_view(name == ui.viewer.resource ? ui.viewer : default_view(name, texture->desc()), texture->desc());
+        return clamp_view(name == ui.viewer.resource ? ui.viewer : default_view(name, texture->desc()),
+                          texture->desc());
     }
     return {};
+}
+
+void pin(UiState& ui, const Graph& graph, const std::string& resource) {
+    const GpuTexture* texture = resource.empty() ? nullptr : graph.texture(resource);
+    ui.pinned = texture ? resource : "";
+    ui.viewer = texture ? default_view(resource, texture->desc()) : ViewerSettings();
+    ui.redraw();
 }
 
 // --- the picture -----------------------------------------------------------------------------------------------------
@@ -65,9 +73,12 @@ const char* sampler_prefix(FormatClass kind) {
 
 const char* sampler_suffix(TextureKind kind) {
     switch (kind) {
-    case TextureKind::texture_2d: return "sampler2D";
-    case TextureKind::texture_2d_array: return "sampler2DArray";
-    case TextureKind::texture_3d: return "sampler3D";
+    case TextureKind::texture_2d:
+        return "sampler2D";
+    case TextureKind::texture_2d_array:
+        return "sampler2DArray";
+    case TextureKind::texture_3d:
+        return "sampler3D";
     }
     return "";
 }

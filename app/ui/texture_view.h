@@ -1,5 +1,6 @@
 #pragma once
-// A picture of any texture of the graph: one mip of one layer or slice, one channel or all, mapped from a range to 8 bits.
+// A picture of any texture of the graph: one mip of one layer or slice, one channel or all, mapped from a range to 8
+// bits.
 
 #include "app/panels/panel.h"
 #include "gpu/program.h"
@@ -9,13 +10,16 @@
 
 namespace bounce {
 
-/// What the viewport shows: ui.hovered, else ui.pinned, else ui.viewer.resource, else out.display; the first of them that
-/// is a texture of the graph. The settings are ui.viewer's where it is meant for that texture, else default_view().
-/// `resource` is empty when the graph has none of them.
+/// What the viewport shows: ui.hovered, else ui.pinned, else ui.viewer.resource, else out.display; the first of them
+/// that is a texture of the graph. The settings are ui.viewer's where it is meant for that texture, else
+/// default_view(). `resource` is empty when the graph has none of them.
 ViewerSettings shown_view(const Graph& graph, const UiState& ui);
 
-/// Settings that show a texture usefully: out.display as it is, normals from −1 to 1, radiance from 0 to 1 with the sRGB
-/// curve, depth, integers and single channels over the range that they have.
+/// Keeps a texture in the viewport, shown by default_view(); "" lets go of what was there.
+void pin(UiState& ui, const Graph& graph, const std::string& resource);
+
+/// Settings that show a texture usefully: out.display as it is, normals from −1 to 1, radiance from 0 to 1 with the
+/// sRGB curve, depth, integers and single channels over the range that they have.
 ViewerSettings default_view(const std::string& resource, const TextureDesc& desc);
 
 /// Mip, layer and channel brought to what the texture has.
@@ -25,8 +29,8 @@ class TextureView {
   public:
     TextureView();
 
-    /// Draws `source` into an rgba8 picture of the mip's size, magnified without interpolation, row 0 first. Valid until
-    /// the next call; mip and layer are clamped. Throws Error when a shader of ours does not compile.
+    /// Draws `source` into an rgba8 picture of the mip's size, magnified without interpolation, row 0 first. Valid
+    /// until the next call; mip and layer are clamped. Throws Error when a shader of ours does not compile.
     const GpuTexture& draw(const GpuTexture& source, const ViewerSettings& settings);
     const GpuTexture& picture() const { return picture_; }
 

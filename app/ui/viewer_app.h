@@ -69,7 +69,7 @@ class ViewerApp {
     std::unique_ptr<Session> session_;
     Viewport viewport_;
 
-    int gui_frames_ = 3;       ///< still to be drawn: ImGui settles over a few
+    int gui_frames_ = 4;       ///< still to be drawn: ImGui settles over a few
     bool later_shown_ = false; ///< the notice of what run_later_actions() will do has been on the screen
     double next_poll_ = 0, next_play_ = 0;
     glm::ivec2 fitting_{0}; ///< a size that the picture is to have, once it has stayed so

@@ -15,7 +15,7 @@ void ViewerApp::obey(const std::string& chord) {
     if (ImGui::GetIO().WantTextInput && !function_key) return;
     KeyCommand command = command_of(chord);
     if (command == KeyCommand::none) return;
-    gui_frames_ = 3;
+    gui_frames_ = 4;
     attempt([&] {
         obey_time(command);
         obey_camera(command, chord);

@@ -86,12 +86,12 @@ void ViewerApp::attempt(const std::function<void()>& action) {
     } catch (const Error& error) {
         ui_.say(error.what(), true);
         spdlog::error("{}", error.what());
-        gui_frames_ = 3;
+        gui_frames_ = 4;
     }
 }
 
 void ViewerApp::hear() {
-    if (window_->take_activity() || viewport_.busy() || ImGui::IsAnyItemActive()) gui_frames_ = 3;
+    if (window_->take_activity() || viewport_.busy() || ImGui::IsAnyItemActive()) gui_frames_ = 4;
     if (std::exchange(ui_.redraw_panels, false)) gui_frames_ = std::max(gui_frames_, 1);
     if (window_->take_scale_change()) make_interface();
     PanelContext panels = context();
@@ -120,7 +120,7 @@ void ViewerApp::run_later_actions() {
     later_shown_ = false;
     for (const auto& action : std::exchange(ui_.window.later, {}))
         attempt(action);
-    gui_frames_ = 3;
+    gui_frames_ = 4;
 }
 
 bool ViewerApp::time_to_advance() {
@@ -198,7 +198,7 @@ void ViewerApp::tell_problems() {
     else
         ui_.say(text, true);
     problems_ = text;
-    gui_frames_ = 3;
+    gui_frames_ = 4;
 }
 
 void ViewerApp::recover_from_reset() {
@@ -212,7 +212,7 @@ void ViewerApp::recover_from_reset() {
     session_->restore_gpu();
     ui_.say("the GPU was reset, and everything on it was made again", true);
     ui_.redraw();
-    gui_frames_ = 3;
+    gui_frames_ = 4;
 }
 
 } // namespace bounce

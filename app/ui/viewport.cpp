@@ -12,12 +12,6 @@
 
 namespace bounce {
 
-static bool same(const ViewerSettings& a, const ViewerSettings& b) {
-    return std::tie(a.resource, a.mip, a.layer, a.channel, a.low, a.high, a.automatic_range, a.encode_srgb,
-                    a.mark_non_finite) == std::tie(b.resource, b.mip, b.layer, b.channel, b.low, b.high,
-                                                   b.automatic_range, b.encode_srgb, b.mark_non_finite);
-}
-
 void Viewport::release_gpu() {
     view_.reset();
     drawn_texture_ = 0;
@@ -42,7 +36,7 @@ const GpuTexture* Viewport::texture_to_show(PanelContext& context) {
         shown_ = settings;
         return nullptr;
     }
-    bool current = view_ && same(settings, shown_) && drawn_frame_ == graph.frames() && drawn_texture_ == source->id();
+    bool current = view_ && settings == shown_ && drawn_frame_ == graph.frames() && drawn_texture_ == source->id();
     if (current) return failure_.empty() ? &view_->picture() : nullptr;
     shown_ = settings;
     drawn_frame_ = graph.frames();

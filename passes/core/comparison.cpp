@@ -103,6 +103,11 @@ static Image three_channels(const Image& image) {
     return out;
 }
 
+void drop_lone_alpha(Image& a, Image& b) {
+    if (a.channels == 4 && b.channels == 3) a = three_channels(a);
+    if (b.channels == 4 && a.channels == 3) b = three_channels(b);
+}
+
 static bool is_radiance(const std::string& part) {
     return part.find("ambient_occlusion") == std::string::npos && part.find("display") == std::string::npos;
 }
@@ -125,7 +130,8 @@ Comparison compare_layers(const LayeredImage& test, const LayeredImage& referenc
     }
     for (const std::string& part : parts) {
         const std::string shown = part.empty() ? "the image" : part;
-        const Image a = part_of(test, part, "the image"), b = part_of(reference, part, "the reference");
+        Image a = part_of(test, part, "the image"), b = part_of(reference, part, "the reference");
+        drop_lone_alpha(a, b);
         check_same_size(a, shown + " of the image", b, shown + " of the reference");
         check_finite(a, shown + " of the image");
         check_finite(b, shown + " of the reference");
@@ -158,7 +164,8 @@ std::vector<SurfaceComparison> compare_surfaces(const LayeredImage& test, const 
     std::vector<SurfaceComparison> surfaces;
     if (!normal || !material) return surfaces;
     const Image ids = surface_ids(*material, *normal);
-    const Image a = part_of(test, part, "the image"), b = part_of(reference, part, "the reference");
+    Image a = part_of(test, part, "the image"), b = part_of(reference, part, "the reference");
+    drop_lone_alpha(a, b);
     for (const auto& [id, count] : component_counts(ids)) {
         const Mask own = mask & component_mask(ids, id);
         if (double(own.count()) < 0.005 * double(mask.count()) || own.count() == 0) continue;

@@ -55,6 +55,9 @@ std::vector<SurfaceComparison> compare_surfaces(const LayeredImage& test, const 
 /// The layer, or sum of layers, that `part` names. Throws Error naming `what` when there is none.
 Image part_of(const LayeredImage& image, const std::string& part, const std::string& what);
 
+/// RGBA against RGB: the alpha of a GPU's texture is no part of the picture, and is dropped.
+void drop_lone_alpha(Image& a, Image& b);
+
 /// Reads a picture to compare: .exr as it is; any 8-bit format as the linear values of its sRGB (layer ""); .hdr.
 /// `display` tells whether the values are display values.
 LayeredImage read_picture(const std::filesystem::path& path, bool& display);

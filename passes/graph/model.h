@@ -51,8 +51,8 @@ class GraphModel {
     std::vector<std::filesystem::path> files() const;
     /// Takes over values that a person set (and switches) from the model that this one replaces.
     void adopt_values(const GraphModel& old);
-    /// Takes compiled programs from another model where the pass and the shader files are the same; what stood here goes
-    /// there.
+    /// Takes compiled programs from another model where the pass and the shader files are the same; what stood here
+    /// goes there.
     void adopt_programs(GraphModel& other);
 
   private:

@@ -183,12 +183,16 @@ Surface TraceGeometry::read_surface(const SurfacePlace& place, const Hit& hit, c
     if (const ReferenceTexture* texture = material.normal_texture.texture) {
         const glm::vec4 texel = texture->sample(place.normal);
         const float x = (2 * texel.x - 1) * material.normal_scale, y = (2 * texel.y - 1) * material.normal_scale;
-        const glm::vec3 tangent = unit_or(
-            mix_corners(glm::vec3(t.a->tangent), glm::vec3(t.b->tangent), glm::vec3(t.c->tangent), u, v), glm::vec3(0));
-        // A mirroring transform turns the frame's handedness over.
-        const float handedness = geometry.mirrored ? -t.a->tangent.w : t.a->tangent.w;
-        const glm::vec3 bitangent = handedness * glm::cross(normal, tangent);
-        normal = unit_or(x * tangent + y * bitangent + (2 * texel.z - 1) * normal, normal);
+        glm::vec3 tangent =
+            mix_corners(glm::vec3(t.a->tangent), glm::vec3(t.b->tangent), glm::vec3(t.c->tangent), u, v);
+        tangent -= normal * glm::dot(normal, tangent);
+        if (glm::dot(tangent, tangent) > 1e-12f) {
+            tangent = glm::normalize(tangent);
+            // A mirroring transform turns the frame's handedness over.
+            const float handedness = geometry.mirrored ? -t.a->tangent.w : t.a->tangent.w;
+            const glm::vec3 bitangent = handedness * glm::cross(normal, tangent);
+            normal = unit_or(x * tangent + y * bitangent + (2 * texel.z - 1) * normal, normal);
+        }
     }
     s.shading = glm::dot(normal, s.geometric) < 0 ? -normal : normal;
 

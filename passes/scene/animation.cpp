@@ -3,7 +3,6 @@
 #include "scene/keyframes.h"
 #include "scene/scene.h"
 
-
 namespace bounce {
 
 namespace {

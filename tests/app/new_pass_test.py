@@ -19,7 +19,7 @@ class NewPass(ProgramTest):
         for name, strength in (("off", "0"), ("on", "1")):
             self.assert_good(self.run_program("render", self.shot, *SMALL, "--resource", "edges.result", "--set", f"edges.strength={strength}",
                                               "--set", "edges.tint=0,1,0", "-o", f"{name}.png"))
-        off, on = (png_pixel(self.out / f"{name}.png", 24, 10) for name in ("off", "on"))
+        off, on = (png_pixel(self.out / f"{name}.png", 24, 46) for name in ("off", "on"))
         self.assertGreater(off[0], 0)
         self.assertEqual(on, (0, off[1], 0))
 

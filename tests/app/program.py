@@ -41,8 +41,10 @@ class ProgramTest(unittest.TestCase):
                               text=True, timeout=120, **options)
 
     def start_program(self, *arguments):
-        process = subprocess.Popen([PROGRAM, *map(str, arguments)], env=self.environment(), cwd=self.out,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        """Starts it and goes on; what it says goes to the file `said`."""
+        with open(self.folder / "said", "w") as said:
+            process = subprocess.Popen([PROGRAM, *map(str, arguments)], env=self.environment(), cwd=self.out,
+                                       stdout=said, stderr=said)
         self.addCleanup(self.stop, process)
         return process
 
@@ -50,7 +52,7 @@ class ProgramTest(unittest.TestCase):
     def stop(process):
         if process.poll() is None:
             process.kill()
-        process.communicate()
+        process.wait()
 
     def assert_refused(self, result, *words, leaves=()):
         """Exit code 2, one message with these words on stderr, and nothing written but `leaves`."""

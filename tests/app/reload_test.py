@@ -29,7 +29,8 @@ class Watching(ProgramTest):
                 for path in self.out.glob("f_*.png"):  # thousands of frames are not kept
                     if int(path.stem[2:]) < number - 1:
                         path.unlink()
-            self.assertIsNone(self.process.poll(), "the program ended: " + self.said())
+            if self.process.poll() is not None:
+                self.fail("the program ended: " + self.said())
             time.sleep(0.05)
         self.fail(f"no such frame within {seconds} s; the newest pixel is {pixel}")
 
@@ -41,11 +42,11 @@ class Watching(ProgramTest):
             time.sleep(0.05)
 
     def said(self):
-        return "".join(self.process.communicate())
+        return (self.folder / "said").read_text()
 
     def end(self):
-        self.process.kill()
-        return self.process.communicate()[1]
+        self.stop(self.process)
+        return self.said()
 
     def paint(self, colour, rename=False, extra=""):
         """The tone map shows one colour."""

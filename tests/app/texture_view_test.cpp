@@ -22,13 +22,14 @@ class TextureViewTest : public testing::Test {
     static void TearDownTestSuite() { context.reset(); }
 
     template <typename T>
-    static GpuTexture make(GLenum format, glm::ivec3 size, const std::vector<T>& values, TextureKind kind = TextureKind::texture_2d,
-                           int mips = 1, int mip = 0) {
+    static GpuTexture make(GLenum format, glm::ivec3 size, const std::vector<T>& values,
+                           TextureKind kind = TextureKind::texture_2d, int mips = 1, int mip = 0) {
         GpuTexture texture({kind, format, size, mips}, "test");
         upload(texture, values, mip);
         return texture;
     }
-    template <typename T> static void upload(const GpuTexture& texture, const std::vector<T>& values, int mip = 0) {
+    template <typename T>
+    static void upload(const GpuTexture& texture, const std::vector<T>& values, int mip = 0) {
         GLenum type = std::is_same_v<T, float> ? GL_FLOAT : std::is_same_v<T, int32_t> ? GL_INT : GL_UNSIGNED_INT;
         const Format& format = format_by_enum(texture.desc().format);
         glm::ivec3 s = mip_size(texture.desc(), mip);
@@ -39,9 +40,10 @@ class TextureViewTest : public testing::Test {
             glTextureSubImage3D(texture.id(), mip, 0, 0, 0, s.x, s.y, s.z, format.transfer, type, values.data());
         }
     }
-    /// "rrggbb" of each texel of the picture. (Values of tests keep away from halves of 1/255, which drivers round as they
-    /// like.)
-    static std::vector<std::string> colours(TextureView& view, const GpuTexture& source, const ViewerSettings& settings) {
+    /// "rrggbb" of each texel of the picture. (Values of tests keep away from halves of 1/255, which drivers round as
+    /// they like.)
+    static std::vector<std::string> colours(TextureView& view, const GpuTexture& source,
+                                            const ViewerSettings& settings) {
         uint64_t errors = high_severity_messages();
         std::vector<float> values = view.draw(source, settings).read();
         std::vector<std::string> out;
@@ -92,8 +94,8 @@ TEST_F(TextureViewTest, ShowsOneChannelOrTheLength) {
 }
 
 TEST_F(TextureViewTest, MarksWhatIsNotFinite) {
-    GpuTexture texture = make<float>(GL_RGBA32F, {4, 1, 1},
-                                     {k_nan, 0, 0, 1, 0, k_infinity, 0, 1, 0, 0, -k_infinity, 1, k_infinity, k_nan, 0, 1});
+    GpuTexture texture = make<float>(
+        GL_RGBA32F, {4, 1, 1}, {k_nan, 0, 0, 1, 0, k_infinity, 0, 1, 0, 0, -k_infinity, 1, k_infinity, k_nan, 0, 1});
     EXPECT_THAT(colours(view, texture, plain()), ElementsAre("ff00ff", "ffff00", "ffff00", "ff00ff"));
     ViewerSettings green = plain();
     green.channel = 2;
@@ -107,7 +109,8 @@ TEST_F(TextureViewTest, FindsTheRangeOfFiniteValues) {
     GpuTexture texture = make<float>(GL_R32F, {3, 2, 1}, {-4, k_nan, 0, 6, k_infinity, -2});
     ViewerSettings settings = plain();
     settings.automatic_range = true;
-    EXPECT_THAT(colours(view, texture, settings), ElementsAre("000000", "ff00ff", "666666", "ffffff", "ffff00", "333333"));
+    EXPECT_THAT(colours(view, texture, settings),
+                ElementsAre("000000", "ff00ff", "666666", "ffffff", "ffff00", "333333"));
     EXPECT_EQ(view.range(), glm::vec2(-4, 6));
     EXPECT_EQ(view.non_finite(), 2u);
     // Larger than one group, and not a multiple of its size.
@@ -139,8 +142,10 @@ TEST_F(TextureViewTest, FormatsOfOneAndTwoChannels) {
     around_zero.low = -1;
     // What the format does not have stays black, also where black is not zero.
     EXPECT_THAT(colours(view, make<float>(GL_RG16_SNORM, {1, 1, 1}, {-1, -0.2f}), around_zero), ElementsAre("006600"));
-    EXPECT_THAT(colours(view, make<float>(GL_RGBA8_SNORM, {1, 1, 1}, {-1, 1, -0.2f, 1}), around_zero), ElementsAre("00ff66"));
-    EXPECT_THAT(colours(view, make<float>(GL_R11F_G11F_B10F, {1, 1, 1}, {0.25f, 0.75f, 1}), plain()), ElementsAre("40bfff"));
+    EXPECT_THAT(colours(view, make<float>(GL_RGBA8_SNORM, {1, 1, 1}, {-1, 1, -0.2f, 1}), around_zero),
+                ElementsAre("00ff66"));
+    EXPECT_THAT(colours(view, make<float>(GL_R11F_G11F_B10F, {1, 1, 1}, {0.25f, 0.75f, 1}), plain()),
+                ElementsAre("40bfff"));
 }
 
 TEST_F(TextureViewTest, IntegersAndDepth) {
@@ -148,7 +153,8 @@ TEST_F(TextureViewTest, IntegersAndDepth) {
     automatic.automatic_range = true;
     EXPECT_THAT(colours(view, make<uint32_t>(GL_R32UI, {3, 1, 1}, {0, 1'600'000'000, 4'000'000'000}), automatic),
                 ElementsAre("000000", "666666", "ffffff"));
-    EXPECT_THAT(colours(view, make<int32_t>(GL_R32I, {3, 1, 1}, {-100, -20, 100}), automatic), ElementsAre("000000", "666666", "ffffff"));
+    EXPECT_THAT(colours(view, make<int32_t>(GL_R32I, {3, 1, 1}, {-100, -20, 100}), automatic),
+                ElementsAre("000000", "666666", "ffffff"));
     ViewerSettings bytes = plain();
     bytes.high = 255;
     EXPECT_THAT(colours(view, make<uint32_t>(GL_RGBA8UI, {1, 1, 1}, {1, 128, 255, 3}), bytes), ElementsAre("0180ff"));
@@ -201,7 +207,8 @@ TEST_F(TextureViewTest, LeavesNothingBehind) {
         GpuTexture texture = make<float>(GL_R32F, {2, 2, 1}, {0, 1, 2, 3});
         ViewerSettings settings;
         settings.automatic_range = true;
-        for (int i = 0; i < 3; ++i) other.draw(texture, settings);
+        for (int i = 0; i < 3; ++i)
+            other.draw(texture, settings);
     }
     EXPECT_EQ(live_objects().total(), before);
 }
@@ -213,15 +220,21 @@ TEST_F(TextureViewTest, DefaultsSuitTheResource) {
     EXPECT_EQ(default_view("gbuffer.normal", colour).low, -1);
     EXPECT_FALSE(default_view("gbuffer.normal", colour).encode_srgb);
     EXPECT_FALSE(default_view("out.display", {TextureKind::texture_2d, GL_RGBA8, {4, 4, 1}, 1}).encode_srgb);
-    EXPECT_TRUE(default_view("gbuffer.depth", {TextureKind::texture_2d, GL_DEPTH_COMPONENT32F, {4, 4, 1}, 1}).automatic_range);
+    EXPECT_TRUE(
+        default_view("gbuffer.depth", {TextureKind::texture_2d, GL_DEPTH_COMPONENT32F, {4, 4, 1}, 1}).automatic_range);
     EXPECT_TRUE(default_view("list.heads", {TextureKind::texture_2d, GL_R32UI, {4, 4, 1}, 1}).automatic_range);
 }
 
 TEST_F(TextureViewTest, ReadsSingleTexelsExactly) {
-    GpuTexture colour = make<float>(GL_RGBA32F, {2, 2, 1}, {0, 0, 0, 0, 1, 2, 3, 4, 0.1f, -5, 1e-7f, 1e30f, 8, 8, 8, 8});
+    GpuTexture colour =
+        make<float>(GL_RGBA32F, {2, 2, 1}, {0, 0, 0, 0, 1, 2, 3, 4, 0.1f, -5, 1e-7f, 1e30f, 8, 8, 8, 8});
     EXPECT_EQ(to_text(read_texel(colour, 0, {0, 1, 0})), "0.1, -5, 1e-07, 1e+30");
     EXPECT_EQ(to_text(read_texel(colour, 0, {1, 0, 0})), "1, 2, 3, 4");
     EXPECT_EQ(to_text(read_texel(colour, 0, {99, 99, 9})), "8, 8, 8, 8"); // clamped
+    // As many digits as tell neighbours apart.
+    EXPECT_EQ(to_text(read_texel(make<float>(GL_R16F, {1, 1, 1}, {0.1f}), 0, {})), "0.099976");
+    EXPECT_EQ(to_text(read_texel(make<float>(GL_R8, {1, 1, 1}, {55 / 255.0f}), 0, {})), "0.2157");
+    EXPECT_EQ(to_text(read_texel(make<float>(GL_R16, {1, 1, 1}, {1 / 65535.0f}), 0, {})), "1.5259e-05");
     GpuTexture bad = make<float>(GL_RG32F, {1, 1, 1}, {k_nan, k_infinity});
     EXPECT_EQ(to_text(read_texel(bad, 0, {})), "nan, inf");
     EXPECT_FALSE(is_finite(read_texel(bad, 0, {})));
@@ -229,7 +242,9 @@ TEST_F(TextureViewTest, ReadsSingleTexelsExactly) {
     EXPECT_EQ(to_text(read_texel(make<int32_t>(GL_R32I, {1, 1, 1}, {-2147483647}), 0, {})), "-2147483647");
     EXPECT_EQ(to_text(read_texel(make<uint32_t>(GL_RGBA8UI, {1, 1, 1}, {1, 2, 3, 255}), 0, {})), "1, 2, 3, 255");
     EXPECT_EQ(to_text(read_texel(make<float>(GL_DEPTH_COMPONENT32F, {1, 2, 1}, {0.1f, 0.7f}), 0, {0, 1, 0})), "0.7");
-    EXPECT_EQ(to_text(read_texel(make<float>(GL_R32F, {1, 1, 3}, {1, 2, 3}, TextureKind::texture_2d_array), 0, {0, 0, 2})), "3");
+    EXPECT_EQ(
+        to_text(read_texel(make<float>(GL_R32F, {1, 1, 3}, {1, 2, 3}, TextureKind::texture_2d_array), 0, {0, 0, 2})),
+        "3");
     GpuTexture volume = make<float>(GL_R32F, {2, 2, 2}, {0, 0, 0, 0, 0, 0, 6, 0}, TextureKind::texture_3d, 2);
     upload<float>(volume, {42}, 1);
     EXPECT_EQ(to_text(read_texel(volume, 0, {0, 1, 1})), "6");

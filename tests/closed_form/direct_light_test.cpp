@@ -91,7 +91,8 @@ class DirectLight : public GpuTest {
             break;
         case Kind::lit:
             // Where the light all but vanishes at a spot's rim, half floats have no relative precision left.
-            if (std::max({expected.radiance.r, expected.radiance.g, expected.radiance.b}) < k_smallest_normal_half) break;
+            if (std::max({expected.radiance.r, expected.radiance.g, expected.radiance.b}) < k_smallest_normal_half)
+                break;
             if (sum == 0) {
                 ++result.false_shadows;
                 result.worst_at = fmt::format("false shadow at {}, {} (cosine {:.3f})", x, y, expected.cosine);

@@ -1,5 +1,6 @@
 // Rays per second of the reference against a bare Embree loop over the very same rays, measured in turns so that both
-// see the same machine. `share` is the ratio. Usage: bounce_benchmark_reference [benchmark options] [SHOT or .gltf …]
+// see the same machine, on 1, 2, 4 … threads. `share` is the ratio. Usage: bounce_benchmark_reference [benchmark
+// options] [SHOT or .gltf …]
 
 #include "core/error.h"
 #include "reference/geometry.h"
@@ -11,6 +12,8 @@
 #include <cstdio>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <thread>
 
 using namespace bounce;
 
@@ -21,24 +24,28 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 /// Only the calls into Embree, in chunks of the size of the reference's tiles.
-double trace_bare(const TraceGeometry& geometry, const std::vector<TracedRay>& rays) {
+double trace_bare(const TraceGeometry& geometry, const std::vector<TracedRay>& rays, int threads) {
+    tbb::task_arena arena(threads);
     const auto start = std::chrono::steady_clock::now();
-    tbb::parallel_for(
-        tbb::blocked_range<size_t>(0, rays.size(), 1024),
-        [&](const tbb::blocked_range<size_t>& range) {
-            size_t hits = 0;
-            for (size_t i = range.begin(); i < range.end(); ++i) {
-                const TracedRay& ray = rays[i];
-                hits += ray.shadow ? geometry.occluded(ray.origin, ray.direction, ray.length)
-                                   : geometry.intersect(ray.origin, ray.direction, ray.length).valid();
-            }
-            benchmark::DoNotOptimize(hits);
-        },
-        tbb::simple_partitioner());
+    arena.execute([&] {
+        tbb::parallel_for(
+            tbb::blocked_range<size_t>(0, rays.size(), 1024),
+            [&](const tbb::blocked_range<size_t>& range) {
+                size_t hits = 0;
+                for (size_t i = range.begin(); i < range.end(); ++i) {
+                    const TracedRay& ray = rays[i];
+                    hits += ray.shadow ? geometry.occluded(ray.origin, ray.direction, ray.length)
+                                       : geometry.intersect(ray.origin, ray.direction, ray.length).valid();
+                }
+                benchmark::DoNotOptimize(hits);
+            },
+            tbb::simple_partitioner());
+    });
     return seconds_since(start);
 }
 
 void compare(benchmark::State& state, const std::string& name) {
+    const int threads = int(state.range(0));
     Shot shot;
     try {
         shot = load_shot(name);
@@ -49,7 +56,9 @@ void compare(benchmark::State& state, const std::string& name) {
     shot.width = 192;
     shot.height = 108;
     if (shot.scene.lights.empty() && !shot.environment.present()) shot.environment.radiance = glm::vec3(1);
-    ReferenceRender render(shot, {});
+    ReferenceSettings settings;
+    settings.threads = threads;
+    ReferenceRender render(shot, settings);
     constexpr int k_samples = 8; // as many as the reference takes together
     render.step(k_samples);
     double reference_seconds = 0, bare_seconds = 0, count = 0;
@@ -62,7 +71,7 @@ void compare(benchmark::State& state, const std::string& name) {
         const double seconds = seconds_since(start);
         if (render.rays() - before != rays.size()) state.SkipWithError("the two did not trace the same rays");
         reference_seconds += seconds;
-        bare_seconds += trace_bare(render.scene().geometry, rays);
+        bare_seconds += trace_bare(render.scene().geometry, rays, threads);
         count += double(rays.size());
         sample += k_samples;
         state.SetIterationTime(seconds);
@@ -79,10 +88,12 @@ int main(int argc, char** argv) {
     std::vector<std::string> names(argv + 1, argv + argc);
     if (names.empty()) names = {"sponza", "sibenik", "cornell", "atrium"};
     for (const std::string& name : names) {
-        benchmark::RegisterBenchmark(name.c_str(), compare, name)
-            ->UseManualTime()
-            ->Unit(benchmark::kMillisecond)
-            ->Iterations(8);
+        auto* registered = benchmark::RegisterBenchmark(name.c_str(), compare, name);
+        registered->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(8)->ArgName("threads");
+        const int most = int(std::max(1u, std::thread::hardware_concurrency()));
+        for (int threads = 1; threads < most; threads *= 2)
+            registered->Arg(threads);
+        registered->Arg(most);
     }
     benchmark::RunSpecifiedBenchmarks();
     return 0;

@@ -1,0 +1,228 @@
+"""The real window, on a display of its own, driven by real input events. It tells where its widgets lie by --dump-ui."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import time
+import unittest
+
+from program import PROGRAM, SMALL, ProgramTest, exr_header, png_pixel
+
+SIZE = (1366, 768)  # a laptop's screen
+PICTURE = (96, 64)
+TOOLS = {"Xvfb": "xvfb", "xdotool": "xdotool", "xwininfo": "x11-utils"}
+
+
+class Display:
+    """An X server on a free display; only the process that was started here is ended."""
+
+    def __init__(self):
+        read, write = os.pipe()
+        self.process = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", f"{SIZE[0]}x{SIZE[1]}x24", "-nolisten", "tcp",
+                                         "-noreset"], pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            self.name = ":" + pipe.readline().strip()
+
+    def close(self):
+        self.process.terminate()
+        self.process.wait(30)
+
+
+class Window(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        missing = [package for tool, package in TOOLS.items() if not shutil.which(tool)]
+        if missing:
+            raise unittest.SkipTest("not installed: " + ", ".join(missing))
+        cls.display = Display()
+        cls.addClassCleanup(cls.display.close)
+
+    def environment(self):
+        environment = dict(super().environment(), DISPLAY=self.display.name, HOME=str(self.folder),
+                           XDG_STATE_HOME=str(self.folder / "state"), XDG_CACHE_HOME=str(self.folder / "cache"))
+        environment.pop("WAYLAND_DISPLAY", None)
+        environment.pop("XAUTHORITY", None)
+        return environment
+
+    # --- the program ---
+
+    def open(self, *arguments):
+        self.dump = self.folder / "dump.json"
+        self.dump.unlink(missing_ok=True)
+        self.log = open(self.folder / "log", "w+")
+        self.addCleanup(self.log.close)
+        self.window = subprocess.Popen([PROGRAM, "view", *map(str, arguments), "--window", "%dx%d" % SIZE, "--dump-ui", str(self.dump)],
+                                       env=self.environment(), cwd=self.out, stdout=self.log, stderr=self.log)
+        self.addCleanup(self.stop, self.window)
+        self.wait(lambda state: state["rendered"] >= 2 and state["drawn"] >= 3, "the first frames")
+
+    def said(self):
+        self.log.flush()
+        return (self.folder / "log").read_text()
+
+    def state(self):
+        return json.loads(self.dump.read_text()) if self.dump.exists() else None
+
+    def wait(self, what, description, seconds=90):
+        """Waits for a drawn frame whose state satisfies `what`; returns the state."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            state = self.state()
+            if state and what(state):
+                return state
+            self.assertIsNone(self.window.poll(), f"the program ended while waiting for {description}: {self.said()}")
+            time.sleep(0.05)
+        self.fail(f"{description}: not within {seconds} s; {json.dumps(self.state())}; {self.said()}")
+
+    def wait_for_exit(self):
+        self.assertEqual(self.window.wait(90), 0, self.said())
+
+    # --- input ---
+
+    def input(self, *words):
+        """One event, and the frame that heard it."""
+        before = self.state()["drawn"]
+        subprocess.run(["xdotool", *map(str, words)], env=self.environment(), check=True, timeout=60)
+        self.wait(lambda state: state["drawn"] > before, "a frame after " + " ".join(map(str, words)))
+        time.sleep(0.1)
+
+    def place(self, widget, share=0.5):
+        """A point of a widget: at a share of its width, half its height."""
+        x0, y0, x1, y1 = self.wait(lambda state: widget in state["widgets"], f"the widget {widget}")["widgets"][widget]
+        return round(x0 + share * (x1 - x0)), round((y0 + y1) / 2)
+
+    def click(self, widget):
+        self.input("mousemove", *self.place(widget))
+        self.input("mousedown", 1)
+        subprocess.run(["xdotool", "mouseup", "1"], env=self.environment(), check=True, timeout=60)
+
+    def drag(self, widget, start, end, button=1):
+        points = [self.place(widget, share) for share in (start, (start + end) / 2, end)]
+        self.input("mousemove", *points[0])
+        self.input("mousedown", button)
+        self.input("mousemove", *points[1])
+        self.input("mousemove", *points[2])
+        self.input("mouseup", button)
+
+    def capture(self, key="F12"):
+        """Presses the key; returns the file that was written."""
+        before = self.state()["last_capture"]
+        self.input("key", key)
+        path = self.wait(lambda state: state["last_capture"] != before, "a capture")["last_capture"]
+        return self.out / os.path.basename(path)
+
+    def middle(self, path):
+        return png_pixel(path, PICTURE[0] // 2, PICTURE[1] // 2)
+
+    # --- tests ---
+
+    def test_a_person_at_work(self):
+        self.open(self.shot, *SMALL, "--size", "%dx%d" % PICTURE)
+        first = self.capture()
+        self.assertEqual(self.wait(lambda state: True, "")["size"], list(PICTURE))
+        dark = self.middle(first)
+
+        # A slider is dragged, and the picture changes; undone, it is as before.
+        self.drag("tonemap.exposure", 0.5, 0.7)
+        state = self.wait(lambda state: "tonemap.exposure" in state["parameters"], "the slider's value")
+        self.assertGreater(float(state["parameters"]["tonemap.exposure"]), 2)
+        bright = self.middle(self.capture("ctrl+s"))
+        self.assertGreater(sum(bright), sum(dark))
+        self.input("key", "ctrl+z")
+        self.wait(lambda state: "tonemap.exposure" not in state["parameters"], "undo")
+        self.assertEqual(self.middle(self.capture()), dark)
+
+        # The linear parts, as an EXR.
+        channels, texts = exr_header(self.capture("shift+F12"))
+        self.assertIn("out.direct.R", channels)
+        self.assertIn("bounce", texts)
+
+        # The camera turns about the surface under the pointer; Home brings it back.
+        camera = self.state()["camera"]
+        self.drag("viewport", 0.5, 0.55)
+        turned = self.wait(lambda state: state["camera"] != camera, "another camera")["camera"]
+        self.input("key", "b")
+
+        # What is seen is saved as a shot, which gives the same picture without the window.
+        self.input("key", "ctrl+e")
+        self.wait(lambda state: state["notice"].startswith("saved"), "the saved shot")
+        shot = next(self.out.glob("*_view_*.json"))
+        seen = self.capture()
+        self.assert_good(self.run_program("render", shot.name, *SMALL, "-q", "-o", "again.png"))
+        for x, y in ((10, 10), (48, 32), (70, 50)):
+            self.assertEqual(png_pixel(self.out / "again.png", x, y), png_pixel(seen, x, y))
+
+        self.input("key", "Home")
+        self.wait(lambda state: state["camera"] == camera, "the shot's camera")
+        self.input("key", "1")
+        back = self.wait(lambda state: state["camera"] != camera, "the bookmark")["camera"]
+        self.assertEqual(back, turned)
+        self.input("key", "ctrl+q")
+        self.wait_for_exit()
+        self.assertNotIn("[error]", self.said())
+
+    def test_a_shader_breaks_and_is_mended(self):
+        self.open(self.shot, *SMALL, "--size", "%dx%d" % PICTURE)
+        self.input("mousemove", *self.place("viewport"))
+        self.input("key", "c")  # continuously
+        good = (self.root / "glsl/surface/tonemap.comp").read_text()
+        for _ in range(2):
+            self.edit("glsl/surface/tonemap.comp", "void main() {", "void main() { int broken = undeclared_name;")
+            state = self.wait(lambda state: state["problems"], "the error row")
+            self.assertRegex(state["problems"][0], r"tonemap\.comp.*undeclared_name")
+            self.assertTrue(state["notice_is_error"])
+            self.wait(lambda later: later["rendered"] > state["rendered"] + 3, "frames that go on")
+            self.click("status.problems")
+            self.wait(lambda state: any(name.startswith("shaders.error.") for name in state["widgets"]), "the row in the Shaders panel")
+            (self.root / "glsl/surface/tonemap.comp").write_text(good)
+            state = self.wait(lambda state: not state["problems"], "the error to go")
+            self.wait(lambda later: later["rendered"] > state["rendered"] + 3, "frames that go on")
+            self.assertNotIn("status.problems", self.state()["widgets"])
+
+    def test_what_is_kept_between_runs(self):
+        self.open(self.shot, *SMALL)
+        self.click("tab.Camera")
+        self.wait(lambda state: "camera.play" in state["widgets"], "the camera's panel")
+        self.input("key", "ctrl+q")
+        self.wait_for_exit()
+
+        self.open(*SMALL)
+        state = self.wait(lambda state: "camera.play" in state["widgets"], "the same panel")
+        self.assertEqual(state["shot"], str(self.shot))
+        self.window.terminate()  # closes as the button does
+        self.wait_for_exit()
+
+        kept = self.folder / "state/bounce/window.json"
+        kept.write_text(kept.read_text()[:40])
+        self.open(self.shot, *SMALL, "--frames", "3")
+        self.wait_for_exit()
+        self.assertEqual(len(re.findall("state is ignored", self.said())), 1, self.said())
+
+    def test_a_gpu_reset(self):
+        """The window, and all that was on the GPU, is made again; an edited value survives."""
+        self.open(self.shot, *SMALL, "--set", "tonemap.exposure=1", "--size", "%dx%d" % PICTURE, "--simulate-reset", "4", "--frames", "9",
+                  "--capture-on-exit", "last.png")
+        self.wait_for_exit()
+        self.assertEqual(self.said().count("the GPU was reset: "), 1)
+        self.assertNotIn("[error]", self.said())
+        self.assertEqual(self.state()["parameters"]["tonemap.exposure"], "1")
+        self.assertTrue(png_pixel(self.out / "last.png", 5, 5))
+
+    def test_without_a_display(self):
+        environment = self.environment()
+        del environment["DISPLAY"]
+        result = subprocess.run([PROGRAM, "view", str(self.shot)], env=environment, cwd=self.out, capture_output=True, text=True, timeout=60)
+        self.assert_refused(result, "no window can be opened", "bounce render")
+
+    def test_bad_input_before_the_window(self):
+        for arguments, words in ((("cornel",), "did you mean 'cornell'?"), ((self.shot, "--size", "12"), "--size"),
+                                 ((self.shot, "--set", "tonemap.exposre=1"), "did you mean"), ((self.shot, "--window", "big"), "--window"),
+                                 ((self.shot, "--capture-on-exit", "x.jpg"), ".exr or .png")):
+            self.assert_refused(self.run_program("view", *arguments), words)
+
+
+if __name__ == "__main__":
+    unittest.main()
