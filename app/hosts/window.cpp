@@ -22,6 +22,11 @@ struct Window::Native {
     bool scale_changed = false;
     std::vector<std::string> keys;
     std::vector<std::string> dropped;
+    struct Release {
+        int key, scancode, modifiers;
+    };
+    std::vector<int> pressed;      ///< keys since the last frame
+    std::vector<Release> released; ///< of those: ImGui hears of it after the frame, or it would miss a short press
     bool fullscreen = false;
     glm::ivec2 windowed_position{0}, windowed_size{1280, 720};
 };
@@ -65,7 +70,11 @@ std::string key_name(int key, int scancode) {
 void on_key(GLFWwindow* handle, int key, int scancode, int action, int modifiers) {
     Window::Native& native = native_of(handle);
     native.active = true;
+    bool short_press = std::find(native.pressed.begin(), native.pressed.end(), key) != native.pressed.end();
+    if (action == GLFW_RELEASE && short_press) native.released.push_back({key, scancode, modifiers});
+    else ImGui_ImplGlfw_KeyCallback(handle, key, scancode, action, modifiers);
     if (action != GLFW_PRESS) return;
+    native.pressed.push_back(key);
     std::string name = key_name(key, scancode);
     if (name.empty()) return;
     std::string chord;
@@ -78,6 +87,7 @@ void on_key(GLFWwindow* handle, int key, int scancode, int action, int modifiers
 /// '?' lies elsewhere on every layout: what counts is the character.
 void on_character(GLFWwindow* handle, unsigned int code) {
     native_of(handle).active = true;
+    ImGui_ImplGlfw_CharCallback(handle, code);
     if (code == '?') native_of(handle).keys.push_back("?");
 }
 
@@ -91,16 +101,29 @@ void note(GLFWwindow* handle) {
     native_of(handle).active = true;
 }
 
-/// Before ImGui's own callbacks, which call those that they find.
+/// ImGui hears of each event from here: its backend would lose short presses of keys in slow frames.
 void set_callbacks(GLFWwindow* handle) {
     glfwSetKeyCallback(handle, on_key);
     glfwSetCharCallback(handle, on_character);
     glfwSetDropCallback(handle, on_drop);
-    glfwSetMouseButtonCallback(handle, [](GLFWwindow* w, int, int, int) { note(w); });
-    glfwSetScrollCallback(handle, [](GLFWwindow* w, double, double) { note(w); });
+    glfwSetMouseButtonCallback(handle, [](GLFWwindow* w, int button, int action, int modifiers) {
+        note(w);
+        ImGui_ImplGlfw_MouseButtonCallback(w, button, action, modifiers);
+    });
+    glfwSetScrollCallback(handle, [](GLFWwindow* w, double x, double y) {
+        note(w);
+        ImGui_ImplGlfw_ScrollCallback(w, x, y);
+    });
     glfwSetCursorPosCallback(handle, [](GLFWwindow* w, double, double) { note(w); });
-    glfwSetCursorEnterCallback(handle, [](GLFWwindow* w, int) { note(w); });
-    glfwSetWindowFocusCallback(handle, [](GLFWwindow* w, int) { note(w); });
+    glfwSetCursorEnterCallback(handle, [](GLFWwindow* w, int entered) {
+        note(w);
+        ImGui_ImplGlfw_CursorEnterCallback(w, entered);
+    });
+    glfwSetWindowFocusCallback(handle, [](GLFWwindow* w, int focused) {
+        note(w);
+        ImGui_ImplGlfw_WindowFocusCallback(w, focused);
+    });
+    glfwSetMonitorCallback(ImGui_ImplGlfw_MonitorCallback);
     glfwSetWindowRefreshCallback(handle, note);
     glfwSetWindowCloseCallback(handle, note);
     glfwSetFramebufferSizeCallback(handle, [](GLFWwindow* w, int, int) { note(w); });
@@ -179,9 +202,11 @@ void Window::open(glm::ivec2 size, bool maximized) {
     }
     glfwSwapInterval(1);
     set_callbacks(handle);
-    ImGui_ImplGlfw_InitForOpenGL(handle, true);
+    ImGui_ImplGlfw_InitForOpenGL(handle, false);
     ImGui_ImplOpenGL3_Init("#version 430 core");
     native_->active = true;
+    native_->pressed.clear();
+    native_->released.clear();
 }
 
 void Window::shut() {
@@ -308,6 +333,10 @@ void Window::begin_frame() {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
+    native_->pressed.clear();
+    for (const Native::Release& key : std::exchange(native_->released, {})) {
+        ImGui_ImplGlfw_KeyCallback(native_->handle, key.key, key.scancode, GLFW_RELEASE, key.modifiers);
+    }
 }
 
 void Window::end_frame() {

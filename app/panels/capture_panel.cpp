@@ -95,6 +95,7 @@ void draw_preset(PanelContext& context) {
     static bool overwrite = false;
     ImGui::SetNextItemWidth(-1);
     ImGui::InputTextWithHint("##preset", "name of a new graph", &name);
+    note_widget("capture.preset");
     help("It goes to the assets' graphs, or to a path when it is one.");
     ImGui::BeginDisabled(name.empty());
     if (ImGui::Button("save values as graph")) {
@@ -104,6 +105,7 @@ void draw_preset(PanelContext& context) {
         overwrite = false;
     }
     ImGui::EndDisabled();
+    note_widget("capture.save_preset");
     help("The graph's file with the values of the panels.");
     ImGui::SameLine();
     ImGui::Checkbox("overwrite", &overwrite);

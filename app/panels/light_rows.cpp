@@ -6,6 +6,7 @@
 #include "scene/keyframes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace bounce {
@@ -26,9 +27,16 @@ struct Place {
     glm::vec3 position{0}, direction{0, -1, 0};
 };
 
+/// What is not zero by rounding alone would be shown as -0.000.
+glm::vec3 clean(glm::vec3 v) {
+    for (int i = 0; i < 3; ++i) {
+        if (std::abs(v[i]) < 1e-6f) v[i] = 0;
+    }
+    return v;
+}
+
 Place place_of(const glm::mat4& world) {
-    // + 0: minus zero would be shown as -0.000.
-    return {glm::vec3(world[3]) + 0.0f, -glm::normalize(glm::vec3(world[2])) + 0.0f};
+    return {glm::vec3(world[3]), clean(-glm::normalize(glm::vec3(world[2])))};
 }
 
 /// Moves the node so that its light is there. The parent stays.

@@ -36,6 +36,7 @@ void draw_path_entry(PanelContext& context) {
     ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 3.4f);
     bool enter = ImGui::InputTextWithHint("##path", "path of a .gltf, .glb, shot or graph", &path,
                                           ImGuiInputTextFlags_EnterReturnsTrue);
+    note_widget("scene.path");
     ImGui::SameLine();
     bool pressed = ImGui::Button("open", {-1, 0});
     help("Files may also be dropped on the window.");
@@ -49,8 +50,10 @@ void draw_facts(const Session& session) {
     fact("vertices", "%zu", facts.vertices);
     fact("materials", "%zu: %zu glossy, %zu emissive, %zu masked", facts.materials, facts.glossy_materials,
          facts.emissive_materials, facts.alpha_tested_materials);
-    if (facts.textures == 0) fact("textures", "none");
-    else fact("textures", "%zu, %s", facts.textures, format_bytes(double(gpu.texture_bytes())).c_str());
+    if (facts.textures == 0)
+        fact("textures", "none");
+    else
+        fact("textures", "%zu, %s", facts.textures, format_bytes(double(gpu.texture_bytes())).c_str());
     fact("geometry", "%s", format_bytes(double(gpu.geometry_bytes())).c_str());
     std::vector<std::string> lights;
     auto count = [&](size_t number, const char* what) {

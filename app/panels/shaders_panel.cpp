@@ -122,7 +122,7 @@ void draw_shaders_panel(PanelContext& context) {
     } else {
         show_text(fmt::format("{} error{}", problems.size(), problems.size() == 1 ? "" : "s"), k_error_colour);
         ImGui::SameLine();
-        show_text("(the picture goes on with what was good last)", k_dim_colour);
+        show_text("the last good programs run", k_dim_colour);
     }
     note_widget("shaders.count");
     ImGui::Separator();

@@ -103,6 +103,10 @@ void ViewerApp::hear() {
     double now = seconds_now();
     if (now < next_poll_) return;
     next_poll_ = now + k_poll_interval;
+    // A reference that grows in the background, and the flicker between it and the picture, are seen without input.
+    const Comparison* comparison = ui_.comparison.get();
+    bool moving = comparison && (comparison->running() || comparison->view == CompareView::flicker);
+    if (moving) gui_frames_ = std::max(gui_frames_, 1);
     attempt([&] {
         if (session_->poll_files()) ui_.redraw();
     });

@@ -55,8 +55,10 @@ class MemoryInput : public Imf::IStream {
     uint64_t position_ = 0;
 };
 
-/// Floats that a file may ask for (2 GiB): a damaged header must not take all memory.
+/// Floats that a file may ask for (2 GiB), and for each of its bytes, beyond what any of the format's compressions
+/// reaches: a damaged header must not take all memory.
 constexpr size_t k_most_floats = size_t(1) << 29;
+constexpr size_t k_most_floats_a_byte = 10000;
 
 } // namespace
 
@@ -148,9 +150,10 @@ LayeredImage read_exr(const std::filesystem::path& path) {
         for (const auto& [name, suffixes] : layers)
             channel_count += suffixes.size();
         if (channel_count == 0) throw Error("it has no channels");
-        if (width <= 0 || height <= 0 || size_t(width) > k_most_floats / size_t(height) / channel_count) {
+        const size_t most_floats = std::min(k_most_floats, k_most_floats_a_byte * bytes.size());
+        if (width <= 0 || height <= 0 || size_t(width) > most_floats / size_t(height) / channel_count) {
             throw Error("its size, " + std::to_string(width) + "x" + std::to_string(height) + " with " +
-                        std::to_string(channel_count) + " channels, is more than 2 GiB");
+                        std::to_string(channel_count) + " channels, is more than 2 GiB or than the file can hold");
         }
         Imf::FrameBuffer frame;
         for (auto& [name, suffixes] : layers) {

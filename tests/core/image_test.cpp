@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
@@ -98,17 +99,18 @@ TEST_F(ImageFiles, DamagedExrIsAnError) {
     image.metadata = "{}";
     write_exr(folder / "a.exr", image);
     const std::string bytes = read_file(folder / "a.exr");
+    auto write = [&](const std::string& text) { std::ofstream(folder / "b.exr", std::ios::binary) << text; };
     for (size_t length = 0; length < bytes.size(); length += 1 + length / 7) {
-        write_file_atomically(folder / "b.exr", bytes.substr(0, length));
+        write(bytes.substr(0, length));
         EXPECT_THAT(error_of([&] { read_exr(folder / "b.exr"); }), testing::HasSubstr("b.exr")) << length;
     }
-    write_file_atomically(folder / "b.exr", "a text, no image");
+    write("a text, no image");
     EXPECT_THAT(error_of([&] { read_exr(folder / "b.exr"); }), testing::HasSubstr("b.exr"));
     // A flipped byte may go unnoticed in a value, but must never do worse than an Error.
-    for (size_t at = 8; at < bytes.size(); at += 5) {
+    for (size_t at = 8; at < bytes.size(); at += at < 500 ? 3 : 41) {
         std::string changed = bytes;
         changed[at] = char(changed[at] ^ 0x55);
-        write_file_atomically(folder / "b.exr", changed);
+        write(changed);
         (void)error_of([&] { read_exr(folder / "b.exr"); });
     }
 }
