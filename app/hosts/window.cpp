@@ -71,8 +71,10 @@ void on_key(GLFWwindow* handle, int key, int scancode, int action, int modifiers
     Window::Native& native = native_of(handle);
     native.active = true;
     bool short_press = std::find(native.pressed.begin(), native.pressed.end(), key) != native.pressed.end();
-    if (action == GLFW_RELEASE && short_press) native.released.push_back({key, scancode, modifiers});
-    else ImGui_ImplGlfw_KeyCallback(handle, key, scancode, action, modifiers);
+    if (action == GLFW_RELEASE && short_press)
+        native.released.push_back({key, scancode, modifiers});
+    else
+        ImGui_ImplGlfw_KeyCallback(handle, key, scancode, action, modifiers);
     if (action != GLFW_PRESS) return;
     native.pressed.push_back(key);
     std::string name = key_name(key, scancode);
