@@ -182,40 +182,6 @@ class Window(ProgramTest):
             self.wait(lambda later: later["rendered"] > state["rendered"] + 3, "frames that go on")
             self.assertNotIn("status.problems", self.state()["widgets"])
 
-    def type(self, widget, text):
-        self.click(widget)
-        subprocess.run(["xdotool", "type", "--delay", "50", text], env=self.environment(), check=True, timeout=60)
-
-    def test_files_are_opened_and_presets_saved(self):
-        self.open(self.shot, *SMALL, "--size", "%dx%d" % PICTURE)
-        self.type("scene.path", "/nowhere/x.gltf")
-        self.input("key", "Return")
-        state = self.wait(lambda state: state["notice_is_error"], "the refusal of a file that is not there")
-        self.assertIn("/nowhere/x.gltf", state["notice"])
-        self.assertEqual(state["shot"], str(self.shot))
-        self.click("scene.shot")
-        self.click("scene.shot.cornell_lamp")
-        self.wait(lambda state: state["shot"] == "cornell_lamp", "the chosen shot")
-
-        # A light is turned at, and taken back; from press to release is one step.
-        self.drag("light.0.outer_cone", 0.5, 0.3)
-        self.wait(lambda state: state["undo"].endswith("cone"), "the edit of the light")
-        self.input("key", "ctrl+z")
-        self.wait(lambda state: not state["undo"], "undo")
-
-        self.drag("tonemap.exposure", 0.5, 0.6)
-        value = float(self.wait(lambda state: "tonemap.exposure" in state["parameters"], "the value")["parameters"]["tonemap.exposure"])
-        self.click("tab.Capture")
-        self.type("capture.preset", "bright")
-        self.click("capture.save_preset")
-        self.wait(lambda state: state["notice"].startswith("saved"), "the preset")
-        preset = json.loads((self.root / "assets/graphs/bright.json").read_text())
-        params = {entry.get("id", entry["type"]): entry.get("params", {}) for entry in preset["passes"]}
-        self.assertAlmostEqual(params["tonemap"]["exposure"], value, 5)
-        self.click("capture.save_preset")
-        self.wait(lambda state: state["notice_is_error"] and "overwrite" in state["notice"], "the refusal to overwrite")
-        self.assert_good(self.run_program("render", self.shot, "--graph", "bright", "-q", "-o", "bright.png"))
-
     def test_what_is_kept_between_runs(self):
         self.open(self.shot, *SMALL)
         self.click("tab.Camera")
