@@ -96,7 +96,7 @@ show_progress() {
                 percent=$((100 * step / total))
                 say "Building: $step of $total"
             fi
-        elif [[ $line != "ninja: "* && $line != "-- "* ]]; then
+        elif [[ $line != "ninja: Entering directory"* && $line != "ninja: no work to do." && $line != "-- "* ]]; then
             [[ -t 2 && -n $begun ]] && printf '\r\033[K' >&2
             say "$line"
         fi
@@ -106,11 +106,12 @@ show_progress() {
 
 # build BUILD TARGET…
 build() {
-    local build=$1 jobs memory
+    local build=$1 jobs memory status=0
     shift
     memory=$(awk '/^MemAvailable/ { print int($2 / 1048576) }' /proc/meminfo) # GiB; the largest file needs about one
     jobs=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
     ((jobs <= memory)) || jobs=$((memory > 1 ? memory : 1))
-    NINJA_STATUS='[%f/%t] ' ninja -C "$build" -j "$jobs" "$@" 2>&1 | show_progress ||
-        fail "the build failed (see above)"
+    NINJA_STATUS='[%f/%t] ' ninja -C "$build" -j "$jobs" "$@" 2>&1 | show_progress || status=$?
+    ((status <= 128)) || fail "the build was stopped by signal $((status - 128)); the next run goes on from there"
+    ((status == 0)) || fail "the build failed (see above)"
 }
