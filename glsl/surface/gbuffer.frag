@@ -2,6 +2,7 @@
 #define SCENE_MATERIALS
 #include "lib/frame.glsl"
 #include "lib/material_raster.glsl"
+#include "lib/normal_map.glsl"
 #include "lib/brdf.glsl"
 
 in Surface {
@@ -23,7 +24,7 @@ void main() {
     Material material = materials[surface_material];
     vec4 base = sample_base_colour(material, surface.uv.xy, surface.uv.zw, surface.colour);
     vec2 normal_uv = transform_uv(material.normal_texture, surface.uv.xy, surface.uv.zw);
-    vec3 mapped = texture(material_normal, normal_uv).xyz * 2.0 - 1.0;
+    vec3 mapped = texture(material_normal, normal_uv).xyz;
     vec2 rm = texture(material_metallic_roughness, transform_uv(material.metallic_roughness_texture, surface.uv.xy, surface.uv.zw)).gb;
     vec3 glow = texture(material_emission, transform_uv(material.emission_texture, surface.uv.xy, surface.uv.zw)).rgb;
     vec3 face = cross(dFdx(surface.position), dFdy(surface.position));
@@ -35,17 +36,7 @@ void main() {
     face = face_length > 0.0 ? face / face_length : authored;
     if (dot(face, to_viewer) < 0.0) face = -face;
 
-    vec3 shading = authored;
-    if (material.normal_texture.array >= 0 && normal_maps != 0) {
-        vec3 t = surface.tangent.xyz - authored * dot(authored, surface.tangent.xyz);
-        if (dot(t, t) > 1.0e-12) {
-            t = normalize(t);
-            vec3 b = cross(authored, t) * surface.tangent.w;
-            mapped.xy *= material.normal_scale;
-            vec3 turned = t * mapped.x + b * mapped.y + authored * mapped.z;
-            if (dot(turned, turned) > 1.0e-12) shading = normalize(turned);
-        }
-    }
+    vec3 shading = shading_normal(material, authored, surface.tangent, mapped);
     shading = turn_toward_viewer(shading, face, to_viewer);
 
     albedo = vec4(base.rgb, 1.0);

@@ -213,8 +213,11 @@ void PassContext::bind_targets(const Targets& targets) {
         colours.push_back(tuple_of(colour));
     auto depth = tuple_of(targets.depth);
     auto first = colours.empty() ? depth : colours.front();
-    glm::ivec3 size = mip_size(graph_.allocations_.texture(std::get<0>(first)).desc(), std::get<1>(first));
-    glBindFramebuffer(GL_FRAMEBUFFER, graph_.allocations_.framebuffer(colours, depth, {0, 0}).id());
+    bool bare = std::get<0>(first) < 0;
+    glm::ivec3 size(targets.size, 1);
+    if (!bare) size = mip_size(graph_.allocations_.texture(std::get<0>(first)).desc(), std::get<1>(first));
+    glm::ivec2 bare_size = bare ? targets.size : glm::ivec2(0);
+    glBindFramebuffer(GL_FRAMEBUFFER, graph_.allocations_.framebuffer(colours, depth, bare_size).id());
     glViewport(0, 0, size.x, size.y);
 }
 

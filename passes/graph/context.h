@@ -28,6 +28,7 @@ struct Targets {
     std::string depth;
     int mip = 0;
     int layer = -1;
+    glm::ivec2 size{0}; ///< of a framebuffer without attachments (fragments that only store to images)
 };
 
 class PassContext {

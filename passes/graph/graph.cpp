@@ -136,6 +136,7 @@ void Graph::build_programs() {
         PassNode& node = *model_->nodes()[size_t(pass.node)];
         model_->scan(node, formats_of(pass));
         for (const auto& program : node.programs) {
+            if (!pass.runs(program->name())) continue;
             std::string text;
             for (const ShaderSource& source : program->sources())
                 text += source.text + '\0';
@@ -245,9 +246,11 @@ std::vector<GraphProblem> Graph::problems() const {
 }
 
 bool Graph::pass_is_stale(const std::string& id) const {
-    const PassNode* node = model_->find_node(id);
-    return node && std::any_of(node->programs.begin(), node->programs.end(),
-                               [](auto& p) { return !p->errors().empty() || !p->usable(); });
+    auto pass = std::find_if(plan_.passes.begin(), plan_.passes.end(), [&](auto& p) { return p.id == id; });
+    if (pass == plan_.passes.end()) return false;
+    const auto& programs = model_->nodes()[size_t(pass->node)]->programs;
+    return std::any_of(programs.begin(), programs.end(),
+                       [&](auto& p) { return pass->runs(p->name()) && (!p->errors().empty() || !p->usable()); });
 }
 
 // --- looking ---------------------------------------------------------------------------------------------------------

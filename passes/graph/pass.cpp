@@ -26,6 +26,7 @@ ResourceDeclaration& Declaration::creates_buffer(const std::string& name, const 
 }
 
 void Declaration::uses(const std::string& program) {
+    programs_.push_back(program);
     for (const ShaderSlot& slot : slots_of_(program)) {
         Usage usage = slot.kind == SlotKind::sampled ? Usage::sampled
                       : slot.kind == SlotKind::image ? Usage::image

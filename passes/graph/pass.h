@@ -68,11 +68,13 @@ class Declaration {
     void reads_and_writes(const std::string& slot, Usage usage) {
         uses_.push_back({slot, usage, true, true, false, ""});
     }
-    /// Every slot of a program's shaders, with the access that they declare.
+    /// This pass runs that program: every slot of its shaders, with the access that they declare.
     void uses(const std::string& program);
     /// Execute is called for iteration = from, …, to − 1, with barriers between.
     void repeat(int from, int to) { repeat_from = from, repeat_to = to; }
 
+    /// The programs that this pass runs with these parameters; the others are not built.
+    const std::vector<std::string>& programs() const { return programs_; }
     const std::vector<SlotUse>& slot_uses() const { return uses_; }
     const std::vector<ResourceDeclaration>& resources() const { return resources_; }
     int repeat_from = 0, repeat_to = 1;
@@ -80,6 +82,7 @@ class Declaration {
   private:
     std::function<std::vector<ShaderSlot>(const std::string&)> slots_of_;
     std::vector<SlotUse> uses_;
+    std::vector<std::string> programs_;
     std::vector<ResourceDeclaration> resources_;
 };
 

@@ -22,6 +22,7 @@ bool is_builtin(const std::string& slot) {
 struct Declared {
     const PassNode* node = nullptr;
     std::vector<SlotUse> uses;
+    std::vector<std::string> programs; ///< that it runs
     std::vector<BindEntry> targets; ///< per use: the resource it points at
     int repeat_from = 0, repeat_to = 1;
     std::string declined; ///< reason, or empty
@@ -86,6 +87,7 @@ class Planner {
             errors_.add("pass '" + node.id() + "': " + error.what());
         }
         pass.uses = declaration.slot_uses();
+        pass.programs = declaration.programs();
         pass.repeat_from = declaration.repeat_from;
         pass.repeat_to = declaration.repeat_to;
         for (SlotUse& use : pass.uses) {
@@ -399,6 +401,7 @@ class Planner {
                 if (model_.nodes()[n].get() == declared.node) pass.node = int(n);
             }
             pass.id = declared.node->id();
+            pass.programs = declared.programs;
             pass.repeat_from = declared.repeat_from;
             pass.repeat_to = declared.repeat_to;
             for (size_t i = 0; i < declared.uses.size(); ++i) {

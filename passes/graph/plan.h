@@ -35,12 +35,14 @@ struct PlanSlot {
 struct PlanPass {
     int node = -1; ///< index into GraphModel::nodes
     std::string id;
+    std::vector<std::string> programs; ///< that it runs
     std::vector<PlanSlot> slots;
     int repeat_from = 0, repeat_to = 1;
     GLbitfield barriers = 0;      ///< before the first step
     GLbitfield step_barriers = 0; ///< between steps
     std::vector<int> clears;      ///< resources cleared before it, because it writes them first
     const PlanSlot* find(const std::string& slot) const;
+    bool runs(const std::string& program) const;
 };
 
 struct PlanDecline {

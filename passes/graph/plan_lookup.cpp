@@ -1,6 +1,8 @@
 // Finds things in a plan by name, and counts of the scene.
 #include "graph/plan.h"
 
+#include <algorithm>
+
 #include <utility>
 
 namespace bounce {
@@ -24,6 +26,10 @@ const PlanResource* Plan::find_resource(const std::string& name) const {
         if (resource.name() == name) return &resource;
     }
     return nullptr;
+}
+
+bool PlanPass::runs(const std::string& program) const {
+    return std::find(programs.begin(), programs.end(), program) != programs.end();
 }
 
 std::vector<std::string> Plan::resource_names() const {

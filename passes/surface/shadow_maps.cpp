@@ -18,7 +18,7 @@ class ShadowMapsPass : public Pass {
     }
 
     void declare(Declaration& d) override {
-        int views = int(d.facts.spot_lights + d.facts.directional_lights + 6 * d.facts.point_lights);
+        int views = shadow_view_count(d.facts);
         d.uses("opaque");
         d.uses("alpha_tested");
         d.creates("shadow.depth", ResourceKind::texture_2d_array, "depth32f",
@@ -54,19 +54,6 @@ class ShadowMapsPass : public Pass {
     }
 
   private:
-    static std::vector<Light> lights_of(const GpuScene& scene) {
-        std::vector<Light> lights;
-        for (const GpuLight& packed : scene.light_list()) {
-            Light light;
-            light.type = LightType(packed.type);
-            light.position = packed.position;
-            light.direction = packed.direction;
-            light.outer_cone = std::acos(packed.outer_cone_cos);
-            lights.push_back(light);
-        }
-        return lights;
-    }
-
     int resolution_ = 2048;
 };
 

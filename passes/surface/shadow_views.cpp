@@ -80,4 +80,21 @@ std::vector<ShadowView> shadow_views(const std::vector<Light>& lights, const Bou
     return views;
 }
 
+int shadow_view_count(const SceneFacts& facts) {
+    return int(facts.spot_lights + facts.directional_lights + 6 * facts.point_lights);
+}
+
+std::vector<Light> lights_of(const GpuScene& scene) {
+    std::vector<Light> lights;
+    for (const GpuLight& packed : scene.light_list()) {
+        Light light;
+        light.type = LightType(packed.type);
+        light.position = packed.position;
+        light.direction = packed.direction;
+        light.outer_cone = std::acos(packed.outer_cone_cos);
+        lights.push_back(light);
+    }
+    return lights;
+}
+
 } // namespace bounce

@@ -2,6 +2,7 @@
 // The views from which lights see the scene: one of a spot or directional light, six of a point light. Shadow maps and
 // reflective shadow maps share them.
 
+#include "graph/gpu_scene.h"
 #include "scene/scene.h"
 
 #include <vector>
@@ -24,5 +25,10 @@ static_assert(sizeof(ShadowView) == 112);
 /// The views of all lights, in the order of the lights. `resolution` in texels; directional views are fitted to
 /// `bounds`.
 std::vector<ShadowView> shadow_views(const std::vector<Light>& lights, const Bounds& bounds, int resolution);
+
+/// How many there are: one of a spot or directional light, six of a point light.
+int shadow_view_count(const SceneFacts& facts);
+/// The lights as they lie on the GPU this frame (what views need of them).
+std::vector<Light> lights_of(const GpuScene& scene);
 
 } // namespace bounce

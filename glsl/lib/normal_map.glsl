@@ -1,0 +1,16 @@
+#ifndef LIB_NORMAL_MAP_GLSL
+#define LIB_NORMAL_MAP_GLSL
+// The shading normal of a raster pass: the authored one, turned by the material's normal map. Include
+// lib/material_raster.glsl first; `mapped` is the map's texel as stored, fetched before any discard.
+vec3 shading_normal(Material material, vec3 authored, vec4 tangent, vec3 mapped) {
+    if (material.normal_texture.array < 0 || normal_maps == 0) return authored;
+    vec3 t = tangent.xyz - authored * dot(authored, tangent.xyz);
+    if (dot(t, t) <= 1.0e-12) return authored;
+    t = normalize(t);
+    vec3 b = cross(authored, t) * tangent.w;
+    vec3 local = mapped * 2.0 - 1.0;
+    local.xy *= material.normal_scale;
+    vec3 turned = t * local.x + b * local.y + authored * local.z;
+    return dot(turned, turned) > 1.0e-12 ? normalize(turned) : authored;
+}
+#endif

@@ -1,0 +1,50 @@
+#ifndef LRSM_CONE_GLSL
+#define LRSM_CONE_GLSL
+// One cone through occlusion voxels that gathers light from layered reflective shadow maps (LRSM, Eq. 1):
+//   I = Σ_i L_i·α_i·Π_{j<i} (1 − α_j).
+// hit_then_sample first finds where the cone is blocked, by a thinner cone (where its occlusion passes `hit_threshold`), then
+// looks the maps up there once, with the wide cone's sphere, of `hit_radius` voxels at least.
+#include "lrsm/sample.glsl"
+#include "voxel/cone.glsl"
+
+uniform bool hit_then_sample = false; //! the maps are looked up once a cone, where it is blocked
+uniform float hit_aperture = 2.0;     //! [0, 90] (degrees) hit_then_sample: of the cone that finds the hit
+uniform float hit_threshold = 0.5;   //! [0.05, 0.99] hit_then_sample: occlusion from which the cone counts as blocked
+uniform float hit_radius = 1.5;       //! [0.25, 16] (voxels) hit_then_sample: radius of the sphere that is looked up
+
+// Radiance along the cone, and in a its occlusion. `diameter`: 2·tan(θ/2), metres a metre.
+vec4 trace_lit_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter) {
+    vec3 light = vec3(0.0);
+    float occlusion = 0.0, hit = 0.0;
+    float t = max(start_offset * grid.voxel, 1.0e-3 * grid.voxel);
+    float end = reach * scene_diagonal;
+    float most_occlusion = hit_then_sample ? hit_threshold : 0.99;
+    float marched = hit_then_sample ? 2.0 * tan(radians(0.5 * hit_aperture)) : diameter;
+    for (int i = 0; i < most_steps && t < end && occlusion < most_occlusion; ++i) {
+        vec3 centre = apex + t * direction;
+        if (any(lessThan(centre, grid.origin)) || any(greaterThan(centre, grid.origin + grid.side))) break;
+        float d = max(marched * t, grid.voxel);
+        float alpha = sphere_occlusion(grid, centre, direction, sphere_level(grid, d));
+        if (alpha > 1.0e-3) {
+            float share = (1.0 - occlusion) * alpha;
+            if (hit_then_sample) {
+                hit = t;
+            } else {
+                for (int view = 0; view < views.length(); ++view)
+                    light += share * sample_view(view, centre, 0.5 * d, -direction, alpha);
+            }
+            occlusion += share;
+        }
+        t += cone_step * d;
+    }
+    if (hit_then_sample && occlusion >= hit_threshold) {
+        occlusion = 1.0;
+        vec3 centre = apex + hit * direction;
+        float radius = max(hit_radius * grid.voxel, 0.5 * diameter * hit);
+        for (int view = 0; view < views.length(); ++view)
+            light += sample_view(view, centre, radius, -direction, -1.0);
+    }
+    return vec4(light, occlusion);
+}
+
+#endif

@@ -1,0 +1,41 @@
+// Reflective shadow map (Dachsbacher & Stamminger 2005; LRSM, Table 1): for each texel the light that a diffuse surface
+// sends on, ρ·L_d·⟨n·l⟩/π with L_d the irradiance at normal incidence, its normal, and ⟨n·l⟩. Depth is the depth buffer.
+#define SCENE_MATERIALS
+#define SCENE_LIGHTS
+#include "lib/frame.glsl"
+#include "lib/material_raster.glsl"
+#include "lib/normal_map.glsl"
+#include "lib/brdf.glsl"
+
+uniform int light_index;
+
+in Surface {
+    vec3 position;
+    vec3 normal;
+    vec4 tangent;
+    vec4 uv;
+    vec4 colour;
+} surface;
+flat in uint surface_material;
+
+layout(location = 0) out vec4 radiance; // a = ⟨n·l⟩
+layout(location = 1) out vec4 normal;   // world, toward the light; a = 1 where there is a surface
+
+void main() {
+    Material material = materials[surface_material];
+    vec4 base = sample_base_colour(material, surface.uv.xy, surface.uv.zw, surface.colour);
+    vec3 mapped = texture(material_normal, transform_uv(material.normal_texture, surface.uv.xy, surface.uv.zw)).xyz;
+    float metallic = material.metallic * texture(material_metallic_roughness, transform_uv(material.metallic_roughness_texture, surface.uv.xy, surface.uv.zw)).b;
+    vec3 face = cross(dFdx(surface.position), dFdy(surface.position));
+    if (alpha_rejects(material, base.a)) discard;
+
+    vec3 l;
+    vec3 irradiance = light_irradiance(lights[light_index], surface.position, l);
+    vec3 authored = normalize(surface.normal);
+    float face_length = length(face);
+    face = face_length > 0.0 ? face / face_length : authored;
+    vec3 n = turn_toward_viewer(shading_normal(material, authored, surface.tangent, mapped), face, l);
+    float cosine = max(dot(n, l), 0.0);
+    radiance = vec4(min(brdf_diffuse(base.rgb, clamp(metallic, 0.0, 1.0)) * irradiance * cosine, vec3(65504.0)), cosine);
+    normal = vec4(n, 1.0);
+}

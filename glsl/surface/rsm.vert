@@ -1,0 +1,29 @@
+// Transforms the scene for one reflective shadow map.
+#define SCENE_DRAWS
+#include "lib/scene.glsl"
+#include "lib/shadow.glsl"
+#include "lib/vertex.glsl"
+
+layout(std430) readonly buffer rsm_views { ShadowView views[]; };
+uniform int view_index; // which of rsm_views
+
+out Surface {
+    vec3 position; // world
+    vec3 normal;   // world, authored
+    vec4 tangent;
+    vec4 uv;
+    vec4 colour;
+} surface;
+flat out uint surface_material;
+
+void main() {
+    Draw draw = draws[gl_BaseInstance];
+    vec4 position = draw.world * vec4(vertex_position_u.xyz, 1.0);
+    surface.position = position.xyz;
+    surface.normal = mat3(draw.normal_matrix) * vertex_normal_v.xyz;
+    surface.tangent = vec4(mat3(draw.world) * vertex_tangent.xyz, vertex_tangent.w);
+    surface.uv = vec4(vertex_position_u.w, vertex_normal_v.w, vertex_uv1);
+    surface.colour = vertex_colour();
+    surface_material = draw.material;
+    gl_Position = views[view_index].view_projection * position;
+}

@@ -1,0 +1,63 @@
+#ifndef VOXEL_CONE_GLSL
+#define VOXEL_CONE_GLSL
+// Cones over occlusion voxels (Crassin et al. 2011; LRSM, section 3.1): a cone is a row of spheres; the sphere at distance
+// t has diameter d = 2·t·tan(θ/2), at least a voxel, and is looked up at mip log2(d/voxel), between mips and voxels
+// linearly. Occlusion α is gathered front to back (Eq. 1).
+// With directional leaves the volume is six volumes one behind the other (voxel/occlusion_store.glsl): the three leaves
+// that face the cone are summed with weights |direction_k|, and clamped to 1.
+#include "lib/voxel_grid.glsl"
+
+uniform sampler3D voxels_occlusion;
+
+uniform float cone_step = 0.5;         //! [0.05, 2] the step from sphere to sphere as a share of their diameter (β)
+uniform float start_offset = 1.0;      //! [0, 16] (voxels) how far along the cone the first sphere lies
+uniform float normal_offset = 1.0;     //! [0, 16] (voxels) how far the apex is moved along the surface's normal
+uniform float opacity_exponent = 1.0;  //! [0.1, 2] α' = 1 − (1 − α)^e for each sphere: 1 as published
+uniform int most_steps = 128;          //! [1, 512] spheres a cone, at most
+uniform float reach = 1.0;             //! [0.01, 2] how far cones go, as a share of the scene's diagonal
+
+struct VoxelGrid {
+    vec3 origin; // metres
+    float side;
+    float voxel; // metres
+    int resolution;
+    int leaves; // 1, or 6
+};
+
+VoxelGrid occlusion_grid() {
+    ivec3 size = textureSize(voxels_occlusion, 0);
+    VoxelGrid grid;
+    grid.resolution = size.x;
+    grid.leaves = size.z / size.x;
+    grid.side = voxel_grid_side(size.x);
+    grid.origin = voxel_grid_origin(grid.side);
+    grid.voxel = grid.side / float(size.x);
+    return grid;
+}
+
+float sphere_level(VoxelGrid grid, float diameter) {
+    return clamp(log2(max(diameter / grid.voxel, 1.0)), 0.0, float(textureQueryLevels(voxels_occlusion) - 1));
+}
+
+// α of a sphere, as seen along `direction`; 0 outside the grid.
+float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float level) {
+    vec3 at = (position - grid.origin) / grid.side;
+    if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return 0.0;
+    float alpha;
+    if (grid.leaves == 1) {
+        alpha = textureLod(voxels_occlusion, at, level).r;
+    } else {
+        // Inside its own volume: half a voxel of the coarser of the two mips away from the next one.
+        float margin = 0.5 * exp2(ceil(level)) / float(grid.resolution);
+        float z = clamp(at.z, margin, 1.0 - margin);
+        alpha = 0.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            int leaf = 2 * axis + (direction[axis] > 0.0 ? 1 : 0); // a surface that faces −axis blocks what goes along +axis
+            alpha += abs(direction[axis]) * textureLod(voxels_occlusion, vec3(at.xy, (z + float(leaf)) / 6.0), level).r;
+        }
+        alpha = min(alpha, 1.0);
+    }
+    return opacity_exponent == 1.0 ? alpha : 1.0 - pow(1.0 - alpha, opacity_exponent);
+}
+
+#endif

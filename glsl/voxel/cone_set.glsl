@@ -1,0 +1,46 @@
+#ifndef VOXEL_CONE_SET_GLSL
+#define VOXEL_CONE_SET_GLSL
+// Sets of cones over a hemisphere. six: one along the normal and five around it, tilted by 60°, weights π/4 and 3π/20, as
+// usual and as published; six_tilted: the ring at 52.2° (cos² = 3/8), whose quadrature is far better; spiral: N cones of
+// equal weight at cosθ = √(1 − (i + ½)/N), a golden angle apart.
+// Neighbouring pixels may take different sets (interleaved sampling, Keller & Heidrich 2001; Segovia et al. 2006):
+// `part` in [0, 1) says which of them. Spirals then take the N cones whose (i + part)/N interleave; sixes turn.
+
+const float k_golden_angle = 2.39996322973;
+
+// A frame around n without branches (Duff et al., "Building an orthonormal basis, revisited", JCGT 2017). Columns: t, b, n.
+mat3 frame_around(vec3 n) {
+    float s = n.z >= 0.0 ? 1.0 : -1.0;
+    float a = -1.0 / (s + n.z), b = n.x * n.y * a;
+    return mat3(vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3(b, s + n.y * n.y * a, -n.y), n);
+}
+
+int cone_count(int set, int spiral_cones) {
+    return set == 2 ? spiral_cones : 6;
+}
+
+// Which of n·n sets a texel takes, as `part`; n = 1: ½. The order is that of a Bayer matrix for n = 2 and 4.
+float interleaved_part(ivec2 texel, int n) {
+    if (n <= 1) return 0.5;
+    ivec2 p = texel % n;
+    int order = p.x + n * p.y;
+    if (n == 2) order = (p.x ^ p.y) * 2 + p.y;
+    if (n == 4) order = (((p.x ^ p.y) & 1) * 2 + (p.y & 1)) * 4 + ((p.x ^ p.y) >> 1) * 2 + (p.y >> 1);
+    return (float(order) + 0.5) / float(n * n);
+}
+
+// Direction of cone i in the frame of the normal, and in w its weight; the weights sum to 1.
+vec4 cone_of(int set, int spiral_cones, int i, float part) {
+    if (set == 2) {
+        float at = (float(i) + part) / float(spiral_cones);
+        float cosine = sqrt(1.0 - at), sine = sqrt(at);
+        float turn = k_golden_angle * float(i) + 6.28318530718 * fract(part * 1.61803398875 + 0.5);
+        return vec4(sine * cos(turn), sine * sin(turn), cosine, 1.0 / float(spiral_cones));
+    }
+    if (i == 0) return vec4(0.0, 0.0, 1.0, 0.25);
+    float tilt = set == 0 ? 1.0471975512 : 0.9117382909; // acos √(3/8)
+    float turn = 1.25663706144 * (float(i - 1) + part - 0.5);
+    return vec4(sin(tilt) * cos(turn), sin(tilt) * sin(turn), cos(tilt), 0.15);
+}
+
+#endif

@@ -1,0 +1,73 @@
+// Occlusion voxels (LRSM, section 5): one byte a voxel, 0 or 255, built each frame without atomics.
+#include "core/error.h"
+#include "graph/context.h"
+
+#include <bit>
+#include <fmt/format.h>
+
+namespace bounce {
+
+class OcclusionVoxelsPass : public Pass {
+  public:
+    void describe(PassDescription& description) override {
+        description.program("raster", {"voxel/occlusion.vert", "voxel/occlusion.geom", "voxel/occlusion.frag"});
+        description.program("compute", {"voxel/occlusion.comp"});
+        description.constant("resolution_of_grid");
+        ParameterSet& p = description.parameters;
+        p.add("resolution", resolution_, {8, 512}, "voxels", "along each side of the grid; a power of two");
+        p.add_choice("route", route_, {"raster", "compute"},
+                     "raster: dominant-axis projection, as published; compute: every voxel that a triangle overlaps, "
+                     "without a rasterizer");
+        p.add("directional_leaves", directional_leaves_,
+              "six volumes, one for each way that a surface may face, so that a surface does not block what leaves it");
+    }
+
+    void declare(Declaration& d) override {
+        if (!std::has_single_bit(unsigned(resolution_)))
+            throw Error(fmt::format("resolution {} is no power of two: {} and {} are the nearest", resolution_,
+                                    std::bit_floor(unsigned(resolution_)), std::bit_ceil(unsigned(resolution_))));
+        int slices = resolution_ * (directional_leaves_ ? 6 : 1);
+        ResourceDeclaration& voxels =
+            d.creates("voxels.occlusion", ResourceKind::texture_3d, "r8", {resolution_, resolution_, slices});
+        voxels.mips = std::to_string(std::bit_width(unsigned(resolution_)));
+        if (route_ == Route::raster) {
+            d.uses("raster");
+        } else {
+            d.creates_buffer("voxels.draw_starts", std::to_string(d.facts.instances + 1), 4);
+            d.uses("compute");
+            d.writes("voxels.draw_starts", Usage::storage);
+        }
+    }
+
+    void execute(PassContext& c) override {
+        c.set("resolution_of_grid", resolution_);
+        if (route_ == Route::raster) {
+            Targets none;
+            none.size = glm::ivec2(resolution_);
+            glDisable(GL_DEPTH_TEST);
+            c.draw_scene("raster", none);
+            return;
+        }
+        std::vector<uint32_t> starts{0};
+        for (const GpuDraw& draw : c.scene().draw_list())
+            starts.push_back(starts.back() + draw.index_count / 3);
+        const Buffer& buffer = c.buffer("voxels.draw_starts");
+        // Facts may count more instances than this frame draws: what is left over repeats the end.
+        starts.resize(buffer.bytes() / sizeof(uint32_t), starts.back());
+        buffer.update(0, starts.size() * sizeof(uint32_t), starts.data());
+        constexpr int k_lanes = 16, k_row = 65536; // as in voxel/occlusion.comp
+        int triangles = int(starts.back());
+        c.dispatch("compute", {std::min(triangles, k_row) * k_lanes, (triangles + k_row - 1) / k_row, 1});
+    }
+
+  private:
+    enum class Route { raster, compute };
+    int resolution_ = 128;
+    Route route_ = Route::raster;
+    bool directional_leaves_ = false;
+};
+
+BOUNCE_REGISTER_PASS("occlusion_voxels", OcclusionVoxelsPass,
+                     "which voxels hold geometry: one byte each, raster or compute, no atomics")
+
+} // namespace bounce
