@@ -60,4 +60,34 @@ float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float leve
     return opacity_exponent == 1.0 ? alpha : 1.0 - pow(1.0 - alpha, opacity_exponent);
 }
 
+// Where a thin cone is blocked: the distance at which its occlusion passes `threshold`; below 0: it is not. Steps of
+// cone_step·d, d = diameter·t, at least a voxel. Empty space is crossed by coarser mips: where the eight texels around a
+// point are empty, nothing lies within half a texel of it. (A single voxel of a leaf still shows in four mips of eight
+// bits, one of a mean in two.)
+float find_hit(VoxelGrid grid, vec3 apex, vec3 direction, float diameter, float threshold) {
+    float t = max(start_offset, 1.0e-3) * grid.voxel, end = reach * scene_diagonal;
+    float open = 1.0;
+    int coarsest = min(grid.leaves == 1 ? 2 : 4, textureQueryLevels(voxels_occlusion) - 1), skip = coarsest;
+    for (int i = 0; i < most_steps && t < end; ++i) {
+        vec3 centre = apex + t * direction;
+        if (any(lessThan(centre, grid.origin)) || any(greaterThan(centre, grid.origin + grid.side))) return -1.0;
+        float d = max(diameter * t, grid.voxel), level = sphere_level(grid, d);
+        float alpha = sphere_occlusion(grid, centre, direction, max(level, float(skip)));
+        if (float(skip) > level) {
+            if (alpha <= 0.0) {
+                t += 0.5 * exp2(float(skip)) * grid.voxel;
+                skip = min(skip + 1, coarsest);
+            } else {
+                --skip;
+            }
+            continue;
+        }
+        open *= 1.0 - alpha;
+        if (1.0 - open >= threshold) return t;
+        t += cone_step * d;
+        if (alpha <= 0.0) skip = min(skip + 1, coarsest);
+    }
+    return -1.0;
+}
+
 #endif
