@@ -1,4 +1,5 @@
 // bounce compare: how far one picture is from another, part by part.
+#include "app/capture.h"
 #include "app/commands/command.h"
 #include "core/comparison.h"
 #include "core/error.h"
@@ -82,6 +83,7 @@ void print_table(const Comparison& comparison, const std::vector<SurfaceComparis
 }
 
 int compare(const CompareArguments& arguments) {
+    if (!arguments.heatmap.empty()) check_output_folder(arguments.heatmap);
     bool image_display = false, reference_display = false;
     const LayeredImage image = read_picture(arguments.image, image_display);
     const LayeredImage reference = read_picture(arguments.reference, reference_display);
@@ -106,6 +108,11 @@ int compare(const CompareArguments& arguments) {
         }
         if (surfaces.empty()) throw Error("--per-surface: neither file has gbuffer.normal and gbuffer.material");
     }
+    // The figures first: a false-colour picture that cannot be written does not cost them.
+    if (arguments.json)
+        fmt::print("{}\n", comparison_json(arguments, comparison, surfaces));
+    else
+        print_table(comparison, surfaces);
     if (!arguments.heatmap.empty()) {
         // The picture as a whole where there is one, unless a part was asked for.
         std::string part = comparison.parts.front().part;
@@ -117,10 +124,6 @@ int compare(const CompareArguments& arguments) {
         const Image errors = relative_error_map(a, b);
         write_png(arguments.heatmap, heat_map(errors, 0, arguments.heatmap_top, comparison.mask));
     }
-    if (arguments.json)
-        fmt::print("{}\n", comparison_json(arguments, comparison, surfaces));
-    else
-        print_table(comparison, surfaces);
     return 0;
 }
 

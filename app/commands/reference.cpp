@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <unistd.h>
 
 namespace bounce {
 
@@ -108,6 +109,28 @@ void write_reference(const ReferenceArguments& arguments, const ReferenceResult&
     write_exr(path, file);
 }
 
+/// Writes the reference. When that fails, what was computed must not be lost with it: the samples are in the cache, or
+/// else the whole picture goes to the folder for temporary files. The error says which.
+void write_or_save(const ReferenceArguments& arguments, const ReferenceResult& result) {
+    try {
+        write_reference(arguments, result);
+    } catch (const Error& error) {
+        if (!arguments.no_cache && result.kept_problem.empty()) {
+            throw Error(std::string(error.what()) + "; the samples are kept: the same command goes on from them");
+        }
+        const std::filesystem::path refuge =
+            std::filesystem::temp_directory_path() / fmt::format("bounce-reference-{}.exr", ::getpid());
+        LayeredImage file = result.image;
+        file.metadata = add_metadata(result.image.metadata, arguments, result);
+        try {
+            write_exr(refuge, file);
+        } catch (const Error& second) {
+            throw Error(fmt::format("{}; nor could it be saved elsewhere: {}", error.what(), second.what()));
+        }
+        throw Error(fmt::format("{}; all parts are saved in '{}'", error.what(), refuge.string()));
+    }
+}
+
 /// What is written besides the parts; such a resource has no noise of its own to go by.
 const std::vector<std::string> k_surface_layers{"gbuffer.normal",   "gbuffer.position",  "gbuffer.albedo",
                                                 "gbuffer.material", "gbuffer.roughness", "gbuffer.metallic"};
@@ -155,7 +178,7 @@ int reference(ReferenceArguments arguments) {
     if (!result.kept_problem.empty()) {
         fmt::print(stderr, "warning: the samples could not be kept for a later run: {}\n", result.kept_problem);
     }
-    if (result.complete || result.samples >= 1) write_reference(arguments, result);
+    if (result.complete || result.samples >= 1) write_or_save(arguments, result);
     if (!arguments.quiet || !result.complete) {
         fmt::print("{}: {} samples a pixel, noise {:.2f} % of {}{}\n", arguments.output, result.samples,
                    100 * result.noise, goal.part,
