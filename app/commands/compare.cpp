@@ -38,7 +38,7 @@ nlohmann::ordered_json figures_json(const ErrorFigures& f) {
             {"largest_error", f.largest_error}};
 }
 
-std::string comparison_json(const CompareArguments& arguments, const Comparison& comparison,
+std::string comparison_json(const CompareArguments& arguments, const LayerComparison& comparison,
                             const std::vector<SurfaceComparison>& surfaces) {
     nlohmann::ordered_json json;
     json["image"] = arguments.image;
@@ -61,7 +61,7 @@ std::string comparison_json(const CompareArguments& arguments, const Comparison&
     return json.dump(2);
 }
 
-void print_table(const Comparison& comparison, const std::vector<SurfaceComparison>& surfaces) {
+void print_table(const LayerComparison& comparison, const std::vector<SurfaceComparison>& surfaces) {
     fmt::print("{:28} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8} {:>7} {:>7}\n", "part", "mean",
                "reference", "bias %", "RMSE %", "noise %", "w/o noise", "relMSE", "SMAPE", "p99", "SSIM", "FLIP");
     auto row = [](const std::string& name, const ErrorFigures& f) {
@@ -97,7 +97,7 @@ int compare(const CompareArguments& arguments) {
     options.display_values = image_display;
     options.ppd = arguments.ppd;
     if (arguments.exposure_given) options.exposure = float(arguments.exposure);
-    const Comparison comparison = compare_layers(image, reference, options);
+    const LayerComparison comparison = compare_layers(image, reference, options);
 
     std::vector<SurfaceComparison> surfaces;
     if (arguments.per_surface) {
