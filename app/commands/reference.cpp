@@ -81,12 +81,14 @@ std::string add_metadata(const std::string& made, const ReferenceArguments& argu
     return json.dump();
 }
 
-Image8 to_display(const Image& image) {
+/// As the graphs' tone map does by default (no curve), so that both programs' pictures can be laid side by side.
+Image8 to_display(const Image& image, float exposure) {
+    const float scale = std::exp2(exposure);
     Image8 out{image.width, image.height, std::vector<uint8_t>(size_t(image.width) * size_t(image.height) * 4, 255)};
     for (size_t i = 0; i < size_t(image.width) * size_t(image.height); ++i) {
         for (int c = 0; c < 3; ++c) {
             const float value = image.pixels[i * size_t(image.channels) + size_t(std::min(c, image.channels - 1))];
-            out.rgba[4 * i + size_t(c)] = uint8_t(std::lround(255 * srgb_encode(value)));
+            out.rgba[4 * i + size_t(c)] = uint8_t(std::lround(255 * srgb_encode(value * scale)));
         }
     }
     return out;
@@ -97,7 +99,7 @@ void write_reference(const ReferenceArguments& arguments, const ReferenceResult&
     if (path.extension() == ".png") {
         const bool picture = arguments.resource.empty();
         const Image& image = result.image.layers.at(picture ? "out.radiance" : arguments.resource);
-        write_png(path, to_display(picture ? display_values(image, arguments.exposure) : image));
+        write_png(path, to_display(image, picture ? arguments.exposure : 0));
         return;
     }
     LayeredImage file;

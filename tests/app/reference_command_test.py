@@ -41,7 +41,14 @@ class Files(ReferenceTest):
     def test_one_part_alone(self):
         self.assert_good(self.reference("x.exr", "--spp", "2", "--resource", "out.indirect_diffuse"))
         self.assertEqual({c.rpartition(".")[0] for c in exr_header(self.out / "x.exr")[0]}, {"out.indirect_diffuse"})
-        self.assert_good(self.reference("x.png", "--spp", "2"))
+
+    def test_a_png_looks_as_the_graphs_pictures_do(self):
+        self.assert_good(self.reference("truth.png", "--spp", "32", "--bounces", "0"))
+        self.assert_good(self.run_program("render", self.shot, "--graph", "direct", "-o", "image.png"))
+        figures = json.loads(self.run_program("compare", "image.png", "truth.png", "--json").stdout)["parts"][""]
+        # Display values: edges count here, of which one picture has samples and the other centres.
+        self.assertLess(abs(figures["bias"]), 0.02)
+        self.assertGreater(figures["ssim"], 0.9)
 
     def test_the_number_of_threads_does_not_show(self):
         for threads in (1, 2, 3):
