@@ -49,7 +49,8 @@ float shadow_plane_distance(ShadowView view, vec2 ndc, vec3 position, vec3 norma
 // light.
 //
 // With `receiver_plane`, a texel is compared with the depth of the surface's plane in the texel's own centre, where its
-// depth was taken: exact on planes without moving anything. Without it, the position's depth serves for all texels, and
+// depth was taken, or with the position's where that is nearer (beyond a crease, the plane may lie behind what is there):
+// exact on planes without moving anything. Without it, the position's depth serves for all texels, and
 // must be moved along the normal by `normal_offset` texels times the sine of the angle between the normal and the view's
 // axis: on a plane, (r + ½)·√2 texels suffice (the depth of a tilted plane changes by tan θ a texel, and the move gains
 // 1/cos θ). The axis and not the light's direction counts: away from the axis of a perspective view, even a plane that
@@ -86,7 +87,7 @@ float shadow_visibility(sampler2DArray shadow_map, ShadowView view, int layer, v
             float here = along;
             if (receiver_plane) {
                 vec2 ndc = (vec2(at) + 0.5) / vec2(size) * 2.0 - 1.0;
-                here = shadow_plane_distance(view, ndc, moved, normal, along, most);
+                here = min(along, shadow_plane_distance(view, ndc, moved, normal, along, most));
             }
             lit += shadow_distance(view, texelFetch(shadow_map, ivec3(at, layer), 0).r) >= here - bias ? 1.0 : 0.0;
         }
