@@ -3,6 +3,7 @@
 import csv
 import json
 import re
+import resource
 import time
 import unittest
 import xml.etree.ElementTree as xml
@@ -134,6 +135,24 @@ class Refusals(Chart):
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertIn("[16, 8192]", result.stderr)
         self.assertEqual([row["shadow_maps.resolution"] for row in self.rows("c")], ["32"])
+
+    def test_a_full_disk_is_told_and_costs_no_point_that_was_measured(self):
+        self.sweep.write_text(json.dumps({"lists": {"shadow_maps.resolution": [32]}}))
+        self.assert_good(self.run_program(*self.arguments("c")))
+        before = self.point_files("c")
+        self.sweep.write_text(json.dumps({"lists": {"shadow_maps.resolution": [32, 64]}}))
+
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (200, 200))
+
+        # Without its signal, the limit acts as a full disk does: a write fails.
+        result = self.run_program(*self.arguments("c"), preexec_fn=limit, restore_signals=False)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("cannot write", result.stderr)
+        self.assertEqual(self.point_files("c"), before)
+        self.assertFalse(list((self.out / "c").rglob("*.tmp")))
+        self.assert_good(self.run_program(*self.arguments("c")))
+        self.assertEqual(len(self.rows("c")), 2)
 
 
 if __name__ == "__main__":
