@@ -27,7 +27,7 @@ vec4 trace_lit_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter) {
     float t = max(start_offset, 1.0e-3) * grid.voxel, end = reach * scene_diagonal;
     for (int i = 0; i < most_steps && t < end && occlusion < 0.99; ++i) {
         vec3 centre = apex + t * direction;
-        if (any(lessThan(centre, grid.origin)) || any(greaterThan(centre, grid.origin + grid.side))) break;
+        if (outside_grid(grid, centre)) break;
         float d = max(diameter * t, grid.voxel);
         float alpha = sphere_occlusion(grid, centre, direction, sphere_level(grid, d));
         if (alpha > 1.0e-3) {

@@ -1,42 +1,18 @@
 #ifndef VOXEL_CONE_GLSL
 #define VOXEL_CONE_GLSL
-// Cones over occlusion voxels (Crassin et al. 2011; LRSM, section 3.1): a cone is a row of spheres; the sphere at distance
-// t has diameter d = 2·t·tan(θ/2), at least a voxel, and is looked up at mip log2(d/voxel), between mips and voxels
-// linearly. Occlusion α is gathered front to back (Eq. 1).
+// Occlusion α of a cone's spheres from occlusion voxels (LRSM, section 3.1), between mips and voxels linearly; it is
+// gathered front to back (Eq. 1).
 // With directional leaves the volume is six volumes one behind the other (voxel/occlusion_store.glsl): the three leaves
 // that face the cone are summed with weights |direction_k|, and clamped to 1.
-#include "lib/voxel_grid.glsl"
+#include "voxel/cone_steps.glsl"
 
 uniform sampler3D voxels_occlusion;
 
-uniform float cone_step = 0.5;         //! [0.05, 2] the step from sphere to sphere as a share of their diameter (β)
-uniform float start_offset = 1.0;      //! [0, 16] (voxels) how far along the cone the first sphere lies
-uniform float normal_offset = 1.0;     //! [0, 16] (voxels) how far the apex is moved along the surface's normal
-uniform float opacity_exponent = 1.0;  //! [0.1, 2] α' = 1 − (1 − α)^e for each sphere: 1 as published
-uniform int most_steps = 128;          //! [1, 512] spheres a cone, at most
-uniform float reach = 1.0;             //! [0.01, 2] how far cones go, as a share of the scene's diagonal
-
-struct VoxelGrid {
-    vec3 origin; // metres
-    float side;
-    float voxel; // metres
-    int resolution;
-    int leaves; // 1, or 6
-};
-
 VoxelGrid occlusion_grid() {
     ivec3 size = textureSize(voxels_occlusion, 0);
-    VoxelGrid grid;
-    grid.resolution = size.x;
-    grid.leaves = size.z / size.x;
-    grid.side = voxel_grid_side(size.x);
-    grid.origin = voxel_grid_origin(grid.side);
-    grid.voxel = grid.side / float(size.x);
-    return grid;
-}
-
-float sphere_level(VoxelGrid grid, float diameter) {
-    return clamp(log2(max(diameter / grid.voxel, 1.0)), 0.0, float(textureQueryLevels(voxels_occlusion) - 1));
+    int leaves = size.z / size.x;
+    // A single voxel of a leaf still shows in four mips of eight bits, one of a mean in two.
+    return voxel_grid(size.x, leaves, textureQueryLevels(voxels_occlusion), leaves == 1 ? 2 : 4);
 }
 
 // α of a sphere, as seen along `direction`; 0 outside the grid.
@@ -57,37 +33,7 @@ float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float leve
         }
         alpha = min(alpha, 1.0);
     }
-    return opacity_exponent == 1.0 ? alpha : 1.0 - pow(1.0 - alpha, opacity_exponent);
-}
-
-// Where a thin cone is blocked: the distance at which its occlusion passes `threshold`; below 0: it is not. Steps of
-// cone_step·d, d = diameter·t, at least a voxel. Empty space is crossed by coarser mips: where the eight texels around a
-// point are empty, nothing lies within half a texel of it. (A single voxel of a leaf still shows in four mips of eight
-// bits, one of a mean in two.)
-float find_hit(VoxelGrid grid, vec3 apex, vec3 direction, float diameter, float threshold) {
-    float t = max(start_offset, 1.0e-3) * grid.voxel, end = reach * scene_diagonal;
-    float open = 1.0;
-    int coarsest = min(grid.leaves == 1 ? 2 : 4, textureQueryLevels(voxels_occlusion) - 1), skip = coarsest;
-    for (int i = 0; i < most_steps && t < end; ++i) {
-        vec3 centre = apex + t * direction;
-        if (any(lessThan(centre, grid.origin)) || any(greaterThan(centre, grid.origin + grid.side))) return -1.0;
-        float d = max(diameter * t, grid.voxel), level = sphere_level(grid, d);
-        float alpha = sphere_occlusion(grid, centre, direction, max(level, float(skip)));
-        if (float(skip) > level) {
-            if (alpha <= 0.0) {
-                t += 0.5 * exp2(float(skip)) * grid.voxel;
-                skip = min(skip + 1, coarsest);
-            } else {
-                --skip;
-            }
-            continue;
-        }
-        open *= 1.0 - alpha;
-        if (1.0 - open >= threshold) return t;
-        t += cone_step * d;
-        if (alpha <= 0.0) skip = min(skip + 1, coarsest);
-    }
-    return -1.0;
+    return corrected_opacity(alpha);
 }
 
 #endif

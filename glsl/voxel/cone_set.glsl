@@ -2,7 +2,8 @@
 #define VOXEL_CONE_SET_GLSL
 // Sets of cones over a hemisphere. six: one along the normal and five around it, tilted by 60°, weights π/4 and 3π/20, as
 // usual and as published; six_tilted: the ring at 52.2° (cos² = 3/8), whose quadrature is far better; spiral: N cones of
-// equal weight at cosθ = √(1 − (i + ½)/N), a golden angle apart.
+// equal weight at cosθ = √(1 − (i + ½)/N), a golden angle apart; four: four of equal weight, tilted by 45° (the per-voxel
+// bounce of DVS).
 // Neighbouring pixels may take different sets (interleaved sampling, Keller & Heidrich 2001; Segovia et al. 2006):
 // `part` in [0, 1) says which of them. Spirals then take the N cones whose (i + part)/N interleave; sixes turn.
 
@@ -16,7 +17,7 @@ mat3 frame_around(vec3 n) {
 }
 
 int cone_count(int set, int spiral_cones) {
-    return set == 2 ? spiral_cones : 6;
+    return set == 2 ? spiral_cones : (set == 3 ? 4 : 6);
 }
 
 // Which of n·n sets a texel takes, as `part`; n = 1: ½. The order is that of a Bayer matrix for n = 2 and 4.
@@ -36,6 +37,10 @@ vec4 cone_of(int set, int spiral_cones, int i, float part) {
         float cosine = sqrt(1.0 - at), sine = sqrt(at);
         float turn = k_golden_angle * float(i) + 6.28318530718 * fract(part * 1.61803398875 + 0.5);
         return vec4(sine * cos(turn), sine * sin(turn), cosine, 1.0 / float(spiral_cones));
+    }
+    if (set == 3) {
+        float turn = 1.57079632679 * (float(i) + part);
+        return vec4(0.70710678 * cos(turn), 0.70710678 * sin(turn), 0.70710678, 0.25);
     }
     if (i == 0) return vec4(0.0, 0.0, 1.0, 0.25);
     float tilt = set == 0 ? 1.0471975512 : 0.9117382909; // acos √(3/8)

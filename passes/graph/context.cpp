@@ -84,6 +84,16 @@ void PassContext::set(const std::string& name, const ParameterValue& value) {
     constants_.emplace_back(name, value);
 }
 
+void PassContext::bind_mip(const std::string& slot_name, int mip) {
+    for (auto& [known, old] : mips_) {
+        if (known == slot_name) {
+            old = mip;
+            return;
+        }
+    }
+    mips_.emplace_back(slot_name, mip);
+}
+
 static bool sampler_is_2d(GLenum type) {
     return type == GL_SAMPLER_2D || type == GL_INT_SAMPLER_2D || type == GL_UNSIGNED_INT_SAMPLER_2D ||
            type == GL_SAMPLER_2D_SHADOW;
@@ -151,7 +161,10 @@ Program& PassContext::use(const std::string& name) {
             continue;
         }
         const GpuTexture& texture = graph_.allocations_.texture(s->resource, s->bind.previous);
-        int mip = std::clamp(index_at(s->bind.mip, iteration), 0, texture.desc().mips - 1);
+        int mip = index_at(s->bind.mip, iteration);
+        for (const auto& [slot, wanted] : mips_)
+            if (slot == s->use.slot) mip = wanted;
+        mip = std::clamp(mip, 0, texture.desc().mips - 1);
         int layer = index_at(s->bind.layer, iteration);
         bool layered = texture.desc().kind != TextureKind::texture_2d && !image_is_2d(image.type);
         GLenum access = s->use.writes ? (s->use.reads ? GL_READ_WRITE : GL_WRITE_ONLY) : GL_READ_ONLY;

@@ -55,6 +55,10 @@ class PassContext {
     /// The value of a constant announced by PassDescription::constant, for the next dispatch or draw.
     void set(const std::string& name, const ParameterValue& value);
 
+    /// Images of that slot are mip `mip` of its texture, for the next dispatches (for passes that walk a mip chain
+    /// themselves).
+    void bind_mip(const std::string& slot, int mip);
+
     /// At least so many invocations (rounded up to whole groups).
     void dispatch(const std::string& program, glm::ivec3 threads);
     void dispatch_indirect(const std::string& program, const std::string& slot, GLintptr offset = 0);
@@ -74,6 +78,7 @@ class PassContext {
     Graph& graph_;
     const PlanPass& pass_;
     std::vector<std::pair<std::string, ParameterValue>> constants_;
+    std::vector<std::pair<std::string, int>> mips_; ///< by slot: see bind_mip
 };
 
 } // namespace bounce

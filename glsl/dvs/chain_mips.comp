@@ -1,0 +1,26 @@
+// One step of the directional volumes' mip chain: each direction from its own finer level (DVS, section VII).
+#include "dvs/anisotropic.glsl"
+#include "dvs/tiles.glsl"
+
+layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
+
+uniform sampler3D dvs_finer;
+layout(FORMAT_dvs_directional) writeonly uniform image3D dvs_directional;
+
+uniform int coarser_mip;
+
+void main() {
+    ivec3 voxel = ivec3(gl_GlobalInvocationID);
+    int size = imageSize(dvs_directional).z;
+    if (any(greaterThanEqual(voxel, ivec3(size)))) return;
+    for (int leaf = 0; leaf < 6; ++leaf) {
+        ivec3 base = 2 * voxel + tile_of(leaf, 2 * size);
+        vec4 children[8];
+        float occupied = 0.0;
+        for (int i = 0; i < 8; ++i) {
+            children[i] = texelFetch(dvs_finer, base + ivec3(i & 1, (i >> 1) & 1, i >> 2), coarser_mip - 1);
+            occupied += children[i].a;
+        }
+        imageStore(dvs_directional, voxel + tile_of(leaf, size), occupied > 0.0 ? directional_mean(children, leaf) : vec4(0.0));
+    }
+}

@@ -1,0 +1,42 @@
+// Puts the voxels that were marked since the last time on the list, writes what they are (static or dynamic) to the flag
+// volume (DVS, section V.B) and their number on the list, plus one, to voxels.place. The order on the list may differ from
+// run to run; no volume depends on it.
+#include "dvs/list.glsl"
+
+layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
+
+layout(r32ui) uniform uimage3D voxels_place;
+layout(r8ui) uniform uimage3D voxels_flags;
+layout(std430) buffer voxels_sums { uint sums[]; };      //! optional
+
+uniform uint kind; // k_static or k_dynamic
+uniform int averaging; // {average, last_writer, sum}
+
+shared uint found, first;
+
+void main() {
+    if (gl_LocalInvocationIndex == 0u) found = 0u;
+    barrier();
+    ivec3 voxel = ivec3(gl_GlobalInvocationID);
+    uint mark = 0u;
+    if (all(lessThan(voxel, imageSize(voxels_place))) && imageLoad(voxels_flags, voxel).r == 0u)
+        mark = imageLoad(voxels_place, voxel).r;
+    uint mine = mark != 0u ? atomicAdd(found, 1u) : 0u;
+    barrier();
+    if (found == 0u) return;
+    if (gl_LocalInvocationIndex == 0u) first = atomicAdd(listed, found);
+    barrier();
+    if (mark == 0u) return;
+    uint index = first + mine;
+    if (index >= uint(list.length())) {
+        imageStore(voxels_place, voxel, uvec4(0u));
+        return;
+    }
+    list[index] = entry_of(voxel);
+    imageStore(voxels_place, voxel, uvec4(index + 1u));
+    imageStore(voxels_flags, voxel, uvec4(kind));
+    if (averaging == 1) sums[index] = mark - 1u ;
+    if (averaging == 2)
+        for (uint i = 0u; i < 12u; ++i)
+            sums[index * 12u + i] = 0u;
+}

@@ -1,0 +1,92 @@
+#ifndef DVS_CONE_GLSL
+#define DVS_CONE_GLSL
+// Cones through the directional volumes (DVS, section VIII): the three that face the cone are summed; below the first of
+// their levels the base volume is blended in linearly. Colour and occlusion are gathered front to back,
+//   c ← c + (1 − α)·c₂,  α ← α + (1 − α)·α₂   (c₂ is premultiplied: the paper's αc + (1 − α)·α₂c₂ counts α twice),
+// and the ambient occlusion δ ← δ + (1 − δ)·α₂·f(r), f(r) = 1/(1 + λ·r), r the cone's radius.
+// hit_then_sample first finds where the cone is blocked, by a thinner cone, and takes the colour there: Σc/Σα over a sphere
+// of `hit_radius` voxels at least.
+#include "voxel/cone_steps.glsl"
+#include "dvs/tiles.glsl"
+
+uniform sampler3D dvs_base;        // the radiance volume
+uniform sampler3D dvs_directional; // six tiles; from the base level on, or from half the resolution
+
+uniform int direction_weights = 0;    //! {squared, absolute} weights of the three volumes: d_k² sums to 1 (as usual); |d_k| is how directional leaves add up
+uniform float ambient_decay = 0.1;    //! [0, 10] (1/voxel) λ, how fast occlusion fades with the cone's radius
+uniform bool hit_then_sample = false; //! the colour is looked up once a cone, where it is blocked
+uniform float hit_aperture = 2.0;     //! [0, 90] (degrees) hit_then_sample: of the cone that finds the hit
+uniform float hit_threshold = 0.5;    //! [0.05, 0.99] hit_then_sample: occlusion from which the cone counts as blocked
+uniform float hit_radius = 1.0;       //! [0.25, 16] (voxels) hit_then_sample: radius of the sphere that is looked up
+
+VoxelGrid directional_grid() {
+    int size = textureSize(dvs_base, 0).x, tile = textureSize(dvs_directional, 0).z;
+    bool leaves = tile == size;
+    int levels = textureQueryLevels(dvs_directional);
+    return voxel_grid(size, leaves ? 6 : 1, leaves ? levels : levels + 1, 4);
+}
+
+vec4 directional_value(VoxelGrid grid, vec3 at, vec3 direction, float level) {
+    int size = textureSize(dvs_directional, 0).z;
+    // Inside its own tile: half a voxel of the coarser of the two mips away from the next one.
+    float margin = min(0.5 * exp2(ceil(level)) / float(size), 0.5);
+    vec3 inside = clamp(at, vec3(margin), vec3(1.0 - margin));
+    vec3 weight = direction_weights == 0 ? direction * direction : abs(direction);
+    vec4 sum = vec4(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        int leaf = 2 * axis + (direction[axis] > 0.0 ? 1 : 0); // a surface that faces −axis blocks what goes along +axis
+        vec3 tile = vec3(tile_of(leaf, 1));
+        sum += weight[axis] * textureLod(dvs_directional, (inside + tile) / vec3(2.0, 3.0, 1.0), level);
+    }
+    return sum.a > 1.0 ? sum / sum.a : sum;
+}
+
+// Premultiplied colour and α of a sphere, without the exponent.
+vec4 sphere_value(VoxelGrid grid, vec3 position, vec3 direction, float level) {
+    vec3 at = (position - grid.origin) / grid.side;
+    if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return vec4(0.0);
+    if (grid.leaves == 6) return directional_value(grid, at, direction, level);
+    vec4 coarse = directional_value(grid, at, direction, max(level - 1.0, 0.0));
+    return level >= 1.0 ? coarse : mix(textureLod(dvs_base, at, 0.0), coarse, level);
+}
+
+float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float level) {
+    return corrected_opacity(min(sphere_value(grid, position, direction, level).a, 1.0));
+}
+
+struct Traced {
+    vec3 colour;
+    float occlusion;         // α
+    float ambient_occlusion; // δ
+};
+
+Traced trace_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter) {
+    Traced cone = Traced(vec3(0.0), 0.0, 0.0);
+    if (hit_then_sample) {
+        float hit = find_hit(grid, apex, direction, 2.0 * tan(radians(0.5 * hit_aperture)), hit_threshold);
+        if (hit < 0.0) return cone;
+        float d = max(2.0 * hit_radius * grid.voxel, diameter * hit);
+        vec4 there = sphere_value(grid, apex + hit * direction, direction, sphere_level(grid, d));
+        cone.colour = there.a > 1.0e-4 ? there.rgb / there.a : vec3(0.0);
+        cone.occlusion = 1.0;
+        cone.ambient_occlusion = 1.0 / (1.0 + ambient_decay * 0.5 * diameter * hit / grid.voxel);
+        return cone;
+    }
+    float t = max(start_offset, 1.0e-3) * grid.voxel, end = reach * scene_diagonal;
+    for (int i = 0; i < most_steps && t < end && cone.occlusion < 0.99; ++i) {
+        vec3 centre = apex + t * direction;
+        if (outside_grid(grid, centre)) break;
+        float d = max(diameter * t, grid.voxel);
+        vec4 value = sphere_value(grid, centre, direction, sphere_level(grid, d));
+        if (value.a > 1.0e-4) {
+            float alpha = corrected_opacity(min(value.a, 1.0));
+            cone.colour += (1.0 - cone.occlusion) * value.rgb * (alpha / value.a);
+            cone.occlusion += (1.0 - cone.occlusion) * alpha;
+            cone.ambient_occlusion += (1.0 - cone.ambient_occlusion) * alpha / (1.0 + ambient_decay * 0.5 * d / grid.voxel);
+        }
+        t += cone_step * d;
+    }
+    return cone;
+}
+
+#endif

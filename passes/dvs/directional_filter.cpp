@@ -1,0 +1,58 @@
+#include "dvs/directional_filter.h"
+
+namespace bounce {
+
+void DirectionalFilter::describe(PassDescription& description) {
+    for (const char* name : {"leaves", "base_mips", "chain_mips"})
+        description.program(name, {std::string("dvs/") + name + ".comp"});
+    description.constant("coarser_mip");
+}
+
+void DirectionalFilter::declare(Declaration& d) const {
+    for (const char* program : {"leaves", "base_mips", "chain_mips"})
+        d.uses(program);
+    d.reads("voxels.counts", Usage::indirect);
+}
+
+void DirectionalFilter::wait() {
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void DirectionalFilter::run(PassContext& c) const {
+    const TextureDesc& directional = c.texture("dvs.directional").desc();
+    bool leaves = directional.size.z == c.texture("voxels.normal").desc().size.z;
+    c.bind_mip("dvs.directional", 0);
+    if (leaves)
+        c.dispatch_indirect("leaves", "voxels.counts");
+    else
+        c.dispatch("base_mips", glm::ivec3(directional.size.z));
+    for (int mip = 1; mip < directional.mips; ++mip) {
+        wait();
+        c.set("coarser_mip", mip);
+        c.bind_mip("dvs.directional", mip);
+        c.dispatch("chain_mips", glm::ivec3(directional.size.z >> mip));
+    }
+    wait();
+}
+
+namespace {
+
+class VoxelFilterPass : public Pass {
+  public:
+    void describe(PassDescription& description) override { DirectionalFilter::describe(description); }
+    std::string unneeded(const SceneFacts& facts) const override {
+        return facts.lights() || facts.emissive_materials ? "" : "the scene has neither lights nor emissive materials";
+    }
+    void declare(Declaration& d) override { filter_.declare(d); }
+    void execute(PassContext& c) override { filter_.run(c); }
+
+  private:
+    DirectionalFilter filter_;
+};
+
+} // namespace
+
+BOUNCE_REGISTER_PASS("voxel_filter", VoxelFilterPass,
+                     "six directional volumes of the light that voxels send and block, with their mips")
+
+} // namespace bounce

@@ -1,0 +1,95 @@
+// Light at voxels: direct (DVS, section VI) and bounced (section IX).
+#include "core/error.h"
+#include "dvs/directional_filter.h"
+
+namespace bounce {
+
+/// The radiance volume; behind the front sides' the back sides', when there are directional leaves.
+static void create_radiance(Declaration& d, const std::string& name) {
+    d.creates(name, ResourceKind::texture_3d, "rgba16f",
+              {"voxels.albedo.width", "voxels.albedo.width",
+               "voxels.albedo.width * (1 + (dvs.directional.depth == voxels.albedo.width))"})
+        .overwritten = true;
+}
+
+/// Over the list of occupied voxels, or over all.
+static void dispatch_voxels(PassContext& c, const std::string& program, bool occupied_only) {
+    glm::ivec3 size = c.texture("voxels.albedo").desc().size;
+    if (occupied_only)
+        c.dispatch_indirect(program, "voxels.counts");
+    else
+        c.dispatch(program, size);
+}
+
+static const char* const k_occupied_only =
+    "one invocation for each occupied voxel, from a list; off: one for each voxel of the grid, as published";
+
+class VoxelDirectPass : public Pass {
+  public:
+    void describe(PassDescription& description) override {
+        description.program("direct", {"dvs/direct.comp"});
+        description.constant("two_sided");
+        description.constant("emission_scale");
+        description.parameters.add("occupied_only", occupied_only_, k_occupied_only);
+    }
+    std::string unneeded(const SceneFacts& facts) const override {
+        return facts.lights() || facts.emissive_materials ? "" : "the scene has neither lights nor emissive materials";
+    }
+    void declare(Declaration& d) override {
+        create_radiance(d, "dvs.radiance");
+        d.uses("direct");
+        d.reads("voxels.counts", Usage::indirect);
+        emission_ = d.facts.emissive_materials > 0;
+    }
+    void execute(PassContext& c) override {
+        glm::ivec3 size = c.texture("dvs.radiance").desc().size;
+        c.set("two_sided", size.z > size.x);
+        c.set("emission_scale", emission_ ? 1.0f : 0.0f);
+        dispatch_voxels(c, "direct", occupied_only_);
+    }
+
+  private:
+    bool occupied_only_ = false, emission_ = false;
+};
+
+class VoxelBouncePass : public Pass {
+  public:
+    void describe(PassDescription& description) override {
+        description.program("bounce", {"dvs/bounce.comp"});
+        DirectionalFilter::describe(description);
+        description.constant("two_sided");
+        description.parameters.add("occupied_only", occupied_only_, k_occupied_only);
+        description.parameters.add(
+            "bounces", bounces_, {1, 8}, "",
+            "indirect bounces of light at the pixel: 2, as published, are one between voxels and one at the pixel");
+    }
+    std::string unneeded(const SceneFacts&) const override {
+        return bounces_ > 1 ? "" : "one bounce, the one at the pixel, needs none between voxels";
+    }
+    void declare(Declaration& d) override {
+        create_radiance(d, "dvs.bounced");
+        d.uses("bounce");
+        d.reads("voxels.counts", Usage::indirect);
+        filter_.declare(d);
+    }
+    void execute(PassContext& c) override {
+        glm::ivec3 size = c.texture("dvs.bounced").desc().size;
+        c.set("two_sided", size.z > size.x);
+        // The bounce after the next starts from what this one made.
+        for (int bounce = 1; bounce < bounces_; ++bounce) {
+            if (bounce > 1) filter_.run(c);
+            dispatch_voxels(c, "bounce", occupied_only_);
+            DirectionalFilter::wait();
+        }
+    }
+
+  private:
+    bool occupied_only_ = false;
+    int bounces_ = 2;
+    DirectionalFilter filter_;
+};
+
+BOUNCE_REGISTER_PASS("voxel_direct", VoxelDirectPass, "direct light and emission that each voxel sends on")
+BOUNCE_REGISTER_PASS("voxel_bounce", VoxelBouncePass, "diffuse light that bounces between voxels, by cones")
+
+} // namespace bounce

@@ -1,0 +1,188 @@
+// Voxelization of the scene into albedo, normal and emission volumes, static and dynamic geometry apart (DVS, section V).
+#include "core/error.h"
+#include "graph/context.h"
+
+#include <bit>
+#include <cstring>
+#include <fmt/format.h>
+
+namespace bounce {
+
+class VoxelizationPass : public Pass {
+  public:
+    void describe(PassDescription& description) override {
+        for (const char* name :
+             {"voxelize", "compact", "finish_list", "clear_dynamic", "clear_leaves", "forget_dynamic", "resolve"})
+            description.program(name, {std::string("dvs/") + name + ".comp"});
+        for (const char* name : {"resolution_of_grid", "operation", "kind", "emission_scale"})
+            description.constant(name);
+        ParameterSet& p = description.parameters;
+        p.add("resolution", resolution_, {8, 512}, "voxels", "along each side of the grid; a power of two");
+        p.add_choice("averaging", averaging_, {"average", "last_writer", "sum"},
+                     "how the fragments of a voxel become one. average: packed running means by compare-and-swap, as "
+                     "published; last_writer: one triangle's surface; sum: integer sums, the same every run");
+        p.add("static_once", static_once_,
+              "static geometry is voxelized when it changes only, as published; off: all of it in each frame");
+        p.add("directional_leaves", directional_leaves_,
+              "six directional values from the base level on, instead of from half the resolution, so that a surface "
+              "neither lights nor blocks what leaves it");
+        p.add("room", room_, {1, 256}, "",
+              "entries of the list of occupied voxels, as a multiple of the voxels of one face of the grid");
+    }
+
+    std::string unneeded(const SceneFacts& facts) const override {
+        return facts.lights() || facts.emissive_materials ? "" : "the scene has neither lights nor emissive materials";
+    }
+
+    void declare(Declaration& d) override {
+        using enum ResourceKind;
+        if (!std::has_single_bit(unsigned(resolution_)))
+            throw Error(fmt::format("resolution {} is no power of two: {} and {} are the nearest", resolution_,
+                                    std::bit_floor(unsigned(resolution_)), std::bit_ceil(unsigned(resolution_))));
+        emission_ = d.facts.emissive_materials > 0;
+        auto volume = [&](const char* name, const char* format) {
+            d.creates(name, texture_3d, format, {resolution_, resolution_, resolution_}).persistent = true;
+        };
+        volume("voxels.place", "r32ui");
+        volume("voxels.flags", "r8ui");
+        volume("voxels.albedo", "rgba8");
+        volume("voxels.normal", "rgba8_snorm");
+        if (emission_) volume("voxels.emission", "rgba16f");
+        int64_t face = int64_t(resolution_) * resolution_;
+        std::string room = std::to_string(std::min<int64_t>(face * room_, face * resolution_));
+        auto list = [&](const char* name, const std::string& count, int stride) {
+            d.creates_buffer(name, count, stride).persistent = true;
+        };
+        list("voxels.list", room, 4);
+        list("voxels.counts", "8", 4);
+        if (averaging_ == Averaging::average) {
+            volume("voxels.packed_albedo", "r32ui");
+            volume("voxels.packed_normal", "r32ui");
+            if (emission_) volume("voxels.packed_emission", "r32ui");
+        } else {
+            list("voxels.sums", room, averaging_ == Averaging::sum ? 12 * 4 : 4);
+        }
+        d.creates_buffer("voxels.draw_starts", std::to_string(d.facts.instances + 1), 4).persistent = true;
+        d.writes("voxels.draw_starts", Usage::storage);
+        int tile = directional_leaves_ ? resolution_ : resolution_ / 2;
+        ResourceDeclaration& directional =
+            d.creates("dvs.directional", texture_3d, "rgba16f", {2 * tile, 3 * tile, tile});
+        directional.mips = std::to_string(std::bit_width(unsigned(tile)));
+        // Where nothing is, the leaves' base level is cleared here; all else is written whole.
+        directional.persistent = true;
+        d.writes("dvs.directional", Usage::image);
+        for (const char* program : {"voxelize", "compact", "finish_list", "resolve"})
+            d.uses(program);
+        bool dynamic = d.facts.dynamic_instances > 0;
+        if (dynamic) d.uses("clear_dynamic"), d.uses("forget_dynamic");
+        if (dynamic && directional_leaves_) d.uses("clear_leaves");
+    }
+
+    void reset_history() override { state_.clear(); }
+
+    void execute(PassContext& c) override {
+        float brightest = 0;
+        for (const Material& m : c.scene().material_list())
+            brightest = std::max({brightest, m.emission.x, m.emission.y, m.emission.z});
+        c.set("resolution_of_grid", resolution_);
+        c.set("emission_scale", emission_ ? brightest : 0.0f);
+
+        std::vector<char> state = static_state(c);
+        if (state != state_) {
+            forget_all(c);
+            add(c, k_static, 0u);
+            state_ = std::move(state);
+        } else if (c.facts().dynamic_instances > 0) {
+            c.dispatch_indirect("clear_dynamic", "voxels.counts");
+            if (directional_leaves_) c.dispatch_indirect("clear_leaves", "voxels.counts");
+            wait();
+            c.dispatch("forget_dynamic", {1, 1, 1});
+            wait();
+        }
+        if (c.facts().dynamic_instances > 0 && static_once_) add(c, k_dynamic, 1u);
+    }
+
+  private:
+    enum class Averaging { average, last_writer, sum };
+    static constexpr int k_static = 1, k_dynamic = 2; // as in dvs/list.glsl
+
+    static void wait() {
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                        GL_TEXTURE_FETCH_BARRIER_BIT);
+    }
+
+    /// All that the static voxels depend on, as bytes; different every time when they are to be made in each frame.
+    std::vector<char> static_state(PassContext& c) {
+        std::vector<char> state;
+        auto add = [&](const auto& value) {
+            const char* bytes = reinterpret_cast<const char*>(&value);
+            state.insert(state.end(), bytes, bytes + sizeof(value));
+        };
+        if (!static_once_) add(++frames_);
+        add(resolution_), add(averaging_), add(room_), add(*c.number(c.plan().id + ".leaf_threshold"));
+        for (const GpuDraw& draw : c.scene().draw_list()) {
+            if (draw.flags & 1u) continue;
+            add(draw.world), add(draw.material), add(draw.first_index), add(draw.index_count);
+        }
+        for (const Material& m : c.scene().material_list())
+            add(m.base_colour), add(m.emission), add(m.metallic), add(m.alpha_mask), add(m.alpha_cutoff),
+                add(m.double_sided);
+        return state;
+    }
+
+    void forget_all(PassContext& c) {
+        std::vector<const char*> volumes{"voxels.place", "voxels.flags", "voxels.albedo", "voxels.normal"};
+        if (emission_) volumes.push_back("voxels.emission");
+        if (averaging_ == Averaging::average) {
+            volumes.insert(volumes.end(), {"voxels.packed_albedo", "voxels.packed_normal"});
+            if (emission_) volumes.push_back("voxels.packed_emission");
+        }
+        for (const char* name : volumes)
+            c.texture(name).clear(glm::vec4(0));
+        if (directional_leaves_) c.texture("dvs.directional").clear(glm::vec4(0), 0);
+        const uint32_t none[8] = {0, 0, 1, 0, 0, 0, 0, 0};
+        c.buffer("voxels.counts").update(0, sizeof(none), none);
+    }
+
+    /// Voxelizes the draws of one kind into voxels that no static geometry holds.
+    void add(PassContext& c, int kind, uint32_t flag) {
+        std::vector<uint32_t> starts{0};
+        // A draw of the other kind has no triangles here.
+        for (const GpuDraw& draw : c.scene().draw_list())
+            starts.push_back(starts.back() + ((draw.flags & 1u) == flag || !static_once_ ? draw.index_count / 3 : 0));
+        const Buffer& buffer = c.buffer("voxels.draw_starts");
+        starts.resize(buffer.bytes() / sizeof(uint32_t), starts.back());
+        buffer.update(0, starts.size() * sizeof(uint32_t), starts.data());
+        int triangles = int(starts.back());
+        constexpr int k_lanes = 16, k_row = 65536; // as in voxel/triangle_voxels.glsl
+        glm::ivec3 threads(std::min(triangles, k_row) * k_lanes, (triangles + k_row - 1) / k_row, 1);
+        c.set("kind", kind);
+        c.set("operation", averaging_ == Averaging::average ? 2 : 0);
+        wait();
+        c.dispatch("voxelize", threads);
+        wait();
+        c.dispatch("compact", glm::ivec3(resolution_));
+        wait();
+        c.dispatch("finish_list", {1, 1, 1});
+        wait();
+        if (averaging_ == Averaging::sum) {
+            c.set("operation", 1);
+            c.dispatch("voxelize", threads);
+            wait();
+        }
+        c.dispatch_indirect("resolve", "voxels.counts");
+        wait();
+    }
+
+    int resolution_ = 128;
+    Averaging averaging_ = Averaging::average;
+    bool static_once_ = true, directional_leaves_ = false, emission_ = false;
+    int room_ = 32;
+    std::vector<char> state_; ///< what the static voxels were made of; empty: there are none
+    uint64_t frames_ = 0;
+};
+
+BOUNCE_REGISTER_PASS("voxelization", VoxelizationPass,
+                     "albedo, normal and emission of each voxel, static and dynamic geometry apart")
+
+} // namespace bounce
