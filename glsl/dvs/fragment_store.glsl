@@ -10,6 +10,7 @@ layout(r32ui) uniform uimage3D voxels_packed_normal;   //! optional
 layout(r32ui) uniform uimage3D voxels_packed_emission; //! optional
 layout(std430) buffer voxels_sums { uint sums[]; };    //! optional
 
+uniform uint kind;     // of the geometry: 1 static, 2 dynamic
 uniform int operation; // 0 mark, 1 add, 2 average
 uniform float emission_scale; // the brightest emission in the scene
 
@@ -20,7 +21,7 @@ const float k_fixed = 32767.0;
 
 // Dynamic geometry leaves static voxels as they are.
 bool taken_by_static(ivec3 voxel) {
-    return (imageLoad(voxels_flags, voxel).r & 1u) != 0u;
+    return kind == 2u && (imageLoad(voxels_flags, voxel).r & 1u) != 0u;
 }
 
 void store_mark(ivec3 voxel, uint triangle) {
