@@ -1,5 +1,6 @@
 // One bounce of diffuse light between voxels (DVS, section IX): cones about each voxel's averaged normal, times its albedo,
 // added to its direct light: L = L_direct + ρ·(E/π).
+#define DVS_PREVIOUS
 #include "dvs/cone.glsl"
 #include "dvs/list.glsl"
 #include "dvs/voxel_surface.glsl"

@@ -5,16 +5,22 @@
 //   c ← c + (1 − α)·c₂,  α ← α + (1 − α)·α₂   (c₂ is premultiplied: the paper's αc + (1 − α)·α₂c₂ counts α twice),
 // and the ambient occlusion δ ← δ + (1 − δ)·α₂·f(r), f(r) = 1/(1 + λ·r), r the cone's radius.
 // hit_then_sample first finds where the cone is blocked, by a thinner cone, and takes the colour there: Σc/Σα over a sphere
-// of `hit_radius` voxels at least.
-#include "voxel/cone_steps.glsl"
+// of `hit_radius` voxels at least. exact_hits makes that a ray from voxel to voxel, and takes the colour of the side of the
+// voxel's surface that it hits, without any directional volume.
+#include "dvs/traverse.glsl"
 #include "dvs/tiles.glsl"
 
 uniform sampler3D dvs_base;        // the radiance volume
+#ifdef DVS_PREVIOUS
+uniform sampler3D dvs_previous; //! optional
+uniform bool from_previous;     // the radiance volume is dvs_previous
+#endif
 uniform sampler3D dvs_directional; // six tiles; from the base level on, or from half the resolution
 
 uniform int direction_weights = 0;    //! {squared, absolute} weights of the three volumes: d_k² sums to 1 (as usual); |d_k| is how directional leaves add up
 uniform float ambient_decay = 0.1;    //! [0, 10] (1/voxel) λ, how fast occlusion fades with the cone's radius
 uniform bool hit_then_sample = false; //! the colour is looked up once a cone, where it is blocked
+uniform bool exact_hits = false;      //! hit_then_sample: the hit is found from voxel to voxel instead of by a thin cone
 uniform float hit_aperture = 2.0;     //! [0, 90] (degrees) hit_then_sample: of the cone that finds the hit
 uniform float hit_threshold = 0.5;    //! [0.05, 0.99] hit_then_sample: occlusion from which the cone counts as blocked
 uniform float hit_radius = 1.0;       //! [0.25, 16] (voxels) hit_then_sample: radius of the sphere that is looked up
@@ -41,17 +47,36 @@ vec4 directional_value(VoxelGrid grid, vec3 at, vec3 direction, float level) {
     return sum.a > 1.0 ? sum / sum.a : sum;
 }
 
+// The front sides of the radiance volume.
+vec4 base_value(sampler3D base, vec3 at) {
+    ivec3 size = textureSize(base, 0);
+    if (size.z > size.x) at.z = 0.5 * min(at.z, 1.0 - 0.5 / float(size.x));
+    return textureLod(base, at, 0.0);
+}
+
 // Premultiplied colour and α of a sphere, without the exponent.
 vec4 sphere_value(VoxelGrid grid, vec3 position, vec3 direction, float level) {
     vec3 at = (position - grid.origin) / grid.side;
     if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return vec4(0.0);
     if (grid.leaves == 6) return directional_value(grid, at, direction, level);
     vec4 coarse = directional_value(grid, at, direction, max(level - 1.0, 0.0));
-    return level >= 1.0 ? coarse : mix(textureLod(dvs_base, at, 0.0), coarse, level);
+#ifdef DVS_PREVIOUS
+    if (from_previous) return mix(base_value(dvs_previous, at), coarse, min(level, 1.0));
+#endif
+    return level >= 1.0 ? coarse : mix(base_value(dvs_base, at), coarse, level);
 }
 
 float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float level) {
     return corrected_opacity(min(sphere_value(grid, position, direction, level).a, 1.0));
+}
+
+vec3 colour_of_side(VoxelGrid grid, ivec3 voxel, bool front) {
+    ivec3 size = textureSize(dvs_base, 0);
+    ivec3 at = voxel + ivec3(0, 0, !front && size.z > size.x ? size.x : 0);
+#ifdef DVS_PREVIOUS
+    if (from_previous) return texelFetch(dvs_previous, at, 0).rgb;
+#endif
+    return texelFetch(dvs_base, at, 0).rgb;
 }
 
 struct Traced {
@@ -62,6 +87,14 @@ struct Traced {
 
 Traced trace_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter) {
     Traced cone = Traced(vec3(0.0), 0.0, 0.0);
+    if (hit_then_sample && exact_hits) {
+        VoxelHit hit = traverse(grid, apex + start_offset * grid.voxel * direction, direction);
+        if (hit.t < 0.0) return cone;
+        cone.colour = colour_of_side(grid, hit.voxel, hit.front);
+        cone.occlusion = 1.0;
+        cone.ambient_occlusion = 1.0 / (1.0 + ambient_decay * 0.5 * diameter * hit.t / grid.voxel);
+        return cone;
+    }
     if (hit_then_sample) {
         float hit = find_hit(grid, apex, direction, 2.0 * tan(radians(0.5 * hit_aperture)), hit_threshold);
         if (hit < 0.0) return cone;

@@ -19,7 +19,8 @@ void main() {
     int size = textureSize(voxels_normal, 0).x;
     vec3 n = voxel_normal(voxel);
     uint leaves = texelFetch(voxels_flags, voxel, 0).r >> 2;
-    vec3 front = texelFetch(dvs_filtered, voxel, 0).rgb, back = texelFetch(dvs_filtered, voxel + ivec3(0, 0, size), 0).rgb;
+    vec3 front = texelFetch(dvs_filtered, voxel, 0).rgb, back = front;
+    if (textureSize(dvs_filtered, 0).z > size) back = texelFetch(dvs_filtered, voxel + ivec3(0, 0, size), 0).rgb;
     for (int leaf = 0; leaf < 6; ++leaf) {
         float cosine = dot(n, leaf_axis(leaf));
         float alpha = (leaves & (1u << leaf)) != 0u ? (leaf_opacity == 0 ? 1.0 : min(abs(cosine) + 0.01, 1.0)) : 0.0;

@@ -3,9 +3,7 @@
 // The two sides of a voxel's surface. The front faces the averaged normal, the back away from it; without directional
 // leaves there is the front only. Radiance volumes of two sides hold the back's behind the front's (z + resolution).
 #include "lib/voxel_grid.glsl"
-
-uniform sampler3D voxels_normal;
-uniform usampler3D voxels_flags;
+#include "dvs/voxel_volumes.glsl"
 
 vec3 leaf_axis(int leaf) {
     vec3 axis = vec3(0.0);

@@ -39,15 +39,29 @@ namespace {
 
 class VoxelFilterPass : public Pass {
   public:
-    void describe(PassDescription& description) override { DirectionalFilter::describe(description); }
+    void describe(PassDescription& description) override {
+        DirectionalFilter::describe(description);
+        description.parameters.add(
+            "directional_leaves", directional_leaves_,
+            "six directional values from the base level on, instead of from half the resolution, so that a surface "
+            "neither lights nor blocks what leaves it");
+    }
     std::string unneeded(const SceneFacts& facts) const override {
         return facts.lights() || facts.emissive_materials ? "" : "the scene has neither lights nor emissive materials";
     }
-    void declare(Declaration& d) override { filter_.declare(d); }
+    void declare(Declaration& d) override {
+        std::string tile = directional_leaves_ ? "voxels.albedo.width" : "max(1, voxels.albedo.width / 2)";
+        ResourceDeclaration& directional =
+            d.creates("dvs.directional", ResourceKind::texture_3d, "rgba16f", {"2 * " + tile, "3 * " + tile, tile});
+        directional.mips = "rint(log2(" + tile + ")) + 1";
+        directional.overwritten = !directional_leaves_; // leaves are written where there are surfaces
+        filter_.declare(d);
+    }
     void execute(PassContext& c) override { filter_.run(c); }
 
   private:
     DirectionalFilter filter_;
+    bool directional_leaves_ = false;
 };
 
 } // namespace

@@ -4,11 +4,10 @@
 
 namespace bounce {
 
-/// The radiance volume; behind the front sides' the back sides', when there are directional leaves.
-static void create_radiance(Declaration& d, const std::string& name) {
+/// A radiance volume; behind the front sides' the back sides' when there are two.
+static void create_radiance(Declaration& d, const std::string& name, const std::string& sides) {
     d.creates(name, ResourceKind::texture_3d, "rgba16f",
-              {"voxels.albedo.width", "voxels.albedo.width",
-               "voxels.albedo.width * (1 + (dvs.directional.depth == voxels.albedo.width))"})
+              {"voxels.albedo.width", "voxels.albedo.width", "voxels.albedo.width * " + sides})
         .overwritten = true;
 }
 
@@ -28,28 +27,27 @@ class VoxelDirectPass : public Pass {
   public:
     void describe(PassDescription& description) override {
         description.program("direct", {"dvs/direct.comp"});
-        description.constant("two_sided");
         description.constant("emission_scale");
         description.parameters.add("occupied_only", occupied_only_, k_occupied_only);
+        description.parameters.add("two_sided", two_sided_,
+                                   "the sides of surfaces that face away from the averaged normal are lit, too");
     }
     std::string unneeded(const SceneFacts& facts) const override {
         return facts.lights() || facts.emissive_materials ? "" : "the scene has neither lights nor emissive materials";
     }
     void declare(Declaration& d) override {
-        create_radiance(d, "dvs.radiance");
+        create_radiance(d, "dvs.radiance", two_sided_ ? "2" : "1");
         d.uses("direct");
         d.reads("voxels.counts", Usage::indirect);
         emission_ = d.facts.emissive_materials > 0;
     }
     void execute(PassContext& c) override {
-        glm::ivec3 size = c.texture("dvs.radiance").desc().size;
-        c.set("two_sided", size.z > size.x);
         c.set("emission_scale", emission_ ? 1.0f : 0.0f);
         dispatch_voxels(c, "direct", occupied_only_);
     }
 
   private:
-    bool occupied_only_ = false, emission_ = false;
+    bool occupied_only_ = false, two_sided_ = false, emission_ = false;
 };
 
 class VoxelBouncePass : public Pass {
@@ -58,6 +56,7 @@ class VoxelBouncePass : public Pass {
         description.program("bounce", {"dvs/bounce.comp"});
         DirectionalFilter::describe(description);
         description.constant("two_sided");
+        description.constant("from_previous");
         description.parameters.add("occupied_only", occupied_only_, k_occupied_only);
         description.parameters.add(
             "bounces", bounces_, {1, 8}, "",
@@ -67,7 +66,8 @@ class VoxelBouncePass : public Pass {
         return bounces_ > 1 ? "" : "one bounce, the one at the pixel, needs none between voxels";
     }
     void declare(Declaration& d) override {
-        create_radiance(d, "dvs.bounced");
+        create_radiance(d, "dvs.bounced", "(dvs.radiance.depth / dvs.radiance.width)");
+        if (bounces_ > 2) create_radiance(d, "dvs.previous", "(dvs.radiance.depth / dvs.radiance.width)");
         d.uses("bounce");
         d.reads("voxels.counts", Usage::indirect);
         filter_.declare(d);
@@ -77,7 +77,13 @@ class VoxelBouncePass : public Pass {
         c.set("two_sided", size.z > size.x);
         // The bounce after the next starts from what this one made.
         for (int bounce = 1; bounce < bounces_; ++bounce) {
-            if (bounce > 1) filter_.run(c);
+            c.set("from_previous", bounce > 1);
+            if (bounce > 1) {
+                if (c.has("dvs.directional")) filter_.run(c);
+                glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+                glCopyImageSubData(c.texture("dvs.bounced").id(), GL_TEXTURE_3D, 0, 0, 0, 0,
+                                   c.texture("dvs.previous").id(), GL_TEXTURE_3D, 0, 0, 0, 0, size.x, size.y, size.z);
+            }
             dispatch_voxels(c, "bounce", occupied_only_);
             DirectionalFilter::wait();
         }

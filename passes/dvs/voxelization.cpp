@@ -12,7 +12,7 @@ class VoxelizationPass : public Pass {
   public:
     void describe(PassDescription& description) override {
         for (const char* name :
-             {"voxelize", "compact", "finish_list", "clear_dynamic", "clear_leaves", "forget_dynamic", "resolve"})
+             {"voxelize", "compact", "finish_list", "clear_dynamic", "forget_dynamic", "resolve"})
             description.program(name, {std::string("dvs/") + name + ".comp"});
         for (const char* name : {"resolution_of_grid", "operation", "kind", "emission_scale"})
             description.constant(name);
@@ -23,9 +23,6 @@ class VoxelizationPass : public Pass {
                      "published; last_writer: one triangle's surface; sum: integer sums, the same every run");
         p.add("static_once", static_once_,
               "static geometry is voxelized when it changes only, as published; off: all of it in each frame");
-        p.add("directional_leaves", directional_leaves_,
-              "six directional values from the base level on, instead of from half the resolution, so that a surface "
-              "neither lights nor blocks what leaves it");
         p.add("room", room_, {1, 256}, "",
               "entries of the list of occupied voxels, as a multiple of the voxels of one face of the grid");
     }
@@ -47,6 +44,8 @@ class VoxelizationPass : public Pass {
         volume("voxels.flags", "r8ui");
         volume("voxels.albedo", "rgba8");
         volume("voxels.normal", "rgba8_snorm");
+        int bricks = (resolution_ + 3) / 4;
+        d.creates("voxels.bricks", texture_3d, "r8ui", {bricks, bricks, bricks}).persistent = true;
         if (emission_) volume("voxels.emission", "rgba16f");
         int64_t face = int64_t(resolution_) * resolution_;
         std::string room = std::to_string(std::min<int64_t>(face * room_, face * resolution_));
@@ -64,18 +63,10 @@ class VoxelizationPass : public Pass {
         }
         d.creates_buffer("voxels.draw_starts", std::to_string(d.facts.instances + 1), 4).persistent = true;
         d.writes("voxels.draw_starts", Usage::storage);
-        int tile = directional_leaves_ ? resolution_ : resolution_ / 2;
-        ResourceDeclaration& directional =
-            d.creates("dvs.directional", texture_3d, "rgba16f", {2 * tile, 3 * tile, tile});
-        directional.mips = std::to_string(std::bit_width(unsigned(tile)));
-        // Where nothing is, the leaves' base level is cleared here; all else is written whole.
-        directional.persistent = true;
-        d.writes("dvs.directional", Usage::image);
         for (const char* program : {"voxelize", "compact", "finish_list", "resolve"})
             d.uses(program);
         bool dynamic = d.facts.dynamic_instances > 0;
         if (dynamic) d.uses("clear_dynamic"), d.uses("forget_dynamic");
-        if (dynamic && directional_leaves_) d.uses("clear_leaves");
     }
 
     void reset_history() override { state_.clear(); }
@@ -94,7 +85,6 @@ class VoxelizationPass : public Pass {
             state_ = std::move(state);
         } else if (c.facts().dynamic_instances > 0) {
             c.dispatch_indirect("clear_dynamic", "voxels.counts");
-            if (directional_leaves_) c.dispatch_indirect("clear_leaves", "voxels.counts");
             wait();
             c.dispatch("forget_dynamic", {1, 1, 1});
             wait();
@@ -139,7 +129,6 @@ class VoxelizationPass : public Pass {
         }
         for (const char* name : volumes)
             c.texture(name).clear(glm::vec4(0));
-        if (directional_leaves_) c.texture("dvs.directional").clear(glm::vec4(0), 0);
         const uint32_t none[8] = {0, 0, 1, 0, 0, 0, 0, 0};
         c.buffer("voxels.counts").update(0, sizeof(none), none);
     }
@@ -176,7 +165,7 @@ class VoxelizationPass : public Pass {
 
     int resolution_ = 128;
     Averaging averaging_ = Averaging::average;
-    bool static_once_ = true, directional_leaves_ = false, emission_ = false;
+    bool static_once_ = true, emission_ = false;
     int room_ = 32;
     std::vector<char> state_; ///< what the static voxels were made of; empty: there are none
     uint64_t frames_ = 0;
