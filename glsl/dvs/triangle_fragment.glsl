@@ -21,19 +21,21 @@ uint leaves_of(vec3 facing, bool both_sides) {
 }
 
 VoxelFragment fragment_of(VisitedTriangle t, ivec3 voxel) {
-    TrianglePoint point = triangle_point(t.corners, t.positions, vec3(voxel) + 0.5);
-    Material m = t.material;
+    Vertex corners[3] = corners_of(t);
+    TrianglePoint point = triangle_point(corners, t.positions, vec3(voxel) + 0.5);
+    Material m = materials[t.material];
+    vec3 facing = facing_of(t, corners);
     VoxelFragment f;
     float metallic = clamp(m.metallic * sample_at_point(m.metallic_roughness_texture, point).b, 0.0, 1.0);
     f.albedo = (m.base_colour * point.colour * sample_at_point(m.base_colour_texture, point)).rgb * (1.0 - metallic);
     f.emission = m.emission * sample_at_point(m.emission_texture, point).rgb;
     vec3 authored = vec3(0.0);
     for (int i = 0; i < 3; ++i)
-        authored += point.weight[i] * t.corners[i].normal_v.xyz;
-    authored = mat3(t.draw.normal_matrix) * authored;
+        authored += point.weight[i] * corners[i].normal_v.xyz;
+    authored = mat3(draws[t.draw].normal_matrix) * authored;
     float size = length(authored);
-    f.normal = size > 0.0 ? authored / size : t.facing;
-    f.leaves = leaves_of(t.facing, (m.flags & 1u) != 0u);
+    f.normal = size > 0.0 ? authored / size : facing;
+    f.leaves = leaves_of(facing, (m.flags & 1u) != 0u);
     return f;
 }
 

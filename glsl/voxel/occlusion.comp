@@ -5,7 +5,7 @@
 layout(local_size_x = 256) in;
 
 void visit_voxel(VisitedTriangle triangle, ivec3 voxel) {
-    store_occlusion(voxel, triangle.facing, (triangle.material.flags & 1u) != 0u, resolution_of_grid);
+    store_occlusion(voxel, facing_of(triangle, corners_of(triangle)), (materials[triangle.material].flags & 1u) != 0u, resolution_of_grid);
 }
 
 void main() {

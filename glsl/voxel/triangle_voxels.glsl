@@ -37,33 +37,38 @@ ivec3 unproject(ivec2 plane, int depth, int axis) {
     return axis == 0 ? ivec3(depth, plane) : (axis == 1 ? ivec3(plane.y, depth, plane.x) : ivec3(plane, depth));
 }
 
+// What is needed to find the voxels; the rest is loaded where one is found (triangles of one voxel leave most lanes idle).
 struct VisitedTriangle {
     uint index; // over all draws
-    Draw draw;
-    Material material;
-    Vertex corners[3];
+    int draw;
+    uint first; // of its indices
+    uint material;
     vec3 positions[3]; // voxel units
-    vec3 facing;       // the plane's normal, on the authored normals' side
 };
 
 VisitedTriangle load_triangle(uint triangle, int draw_count) {
     VisitedTriangle t;
-    int at = draw_of(triangle, draw_count);
     t.index = triangle;
-    t.draw = draws[at];
-    t.material = materials[t.draw.material];
-    uint first = t.draw.first_index + 3u * (triangle - draw_starts[at]);
-    vec3 authored = vec3(0.0);
-    for (int i = 0; i < 3; ++i) {
-        t.corners[i] = vertices[indices[first + uint(i)]];
-        t.positions[i] = world_to_voxel((t.draw.world * vec4(t.corners[i].position_u.xyz, 1.0)).xyz, resolution_of_grid);
-        authored += t.corners[i].normal_v.xyz;
-    }
+    t.draw = draw_of(triangle, draw_count);
+    t.first = draws[t.draw].first_index + 3u * (triangle - draw_starts[t.draw]);
+    t.material = draws[t.draw].material;
+    mat4 world = draws[t.draw].world;
+    for (int i = 0; i < 3; ++i)
+        t.positions[i] = world_to_voxel((world * vec4(vertices[indices[t.first + uint(i)]].position_u.xyz, 1.0)).xyz, resolution_of_grid);
+    return t;
+}
+
+Vertex[3] corners_of(VisitedTriangle t) {
+    return Vertex[3](vertices[indices[t.first]], vertices[indices[t.first + 1u]], vertices[indices[t.first + 2u]]);
+}
+
+// The plane's normal, on the authored normals' side; 0 for a triangle without area.
+vec3 facing_of(VisitedTriangle t, Vertex corners[3]) {
     vec3 normal = cross(t.positions[1] - t.positions[0], t.positions[2] - t.positions[0]);
     float size = length(normal);
-    t.facing = size > 0.0 ? normal / size : vec3(0.0);
-    if (dot(t.facing, mat3(t.draw.normal_matrix) * authored) < 0.0) t.facing = -t.facing;
-    return t;
+    if (!(size > 0.0)) return vec3(0.0);
+    vec3 authored = corners[0].normal_v.xyz + corners[1].normal_v.xyz + corners[2].normal_v.xyz;
+    return dot(normal, mat3(draws[t.draw].normal_matrix) * authored) < 0.0 ? -normal / size : normal / size;
 }
 
 void visit_voxel(VisitedTriangle triangle, ivec3 voxel);
@@ -74,22 +79,25 @@ void visit_triangles() {
     if (draw_count < 1 || triangle >= draw_starts[draw_count]) return;
     VisitedTriangle t = load_triangle(triangle, draw_count);
     vec3 p[3] = t.positions;
-    if (t.facing == vec3(0.0)) return;
+    vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
+    if (!(dot(normal, normal) > 0.0)) return;
 
     // The box around the triangle. Touching counts, so a corner on a border belongs to both sides.
     vec3 least = min(p[0], min(p[1], p[2])), most = max(p[0], max(p[1], p[2]));
     ivec3 low = max(ivec3(ceil(least)) - 1, ivec3(0));
     ivec3 high = min(ivec3(floor(most)), ivec3(resolution_of_grid - 1));
     if (any(lessThan(high, low))) return;
-
-    vec3 normal = t.facing;
     int axis = dominant_axis(normal);
+    ivec2 plane_low = ivec2(plane_of(vec3(low), axis)), plane_high = ivec2(plane_of(vec3(high), axis));
+    int width = plane_high.x - plane_low.x + 1, columns = width * (plane_high.y - plane_low.y + 1);
+    int lane = int(gl_GlobalInvocationID.x) % k_lanes;
+    if (lane >= columns) return;
+
+    float cutoff = materials[t.material].alpha_cutoff;
     vec3 across = normal;
     across[axis] = 0.0;
     float reach = 0.5 * (abs(across.x) + abs(across.y) + abs(across.z)) / abs(normal[axis]) + 1.0e-3;
-    ivec2 plane_low = ivec2(plane_of(vec3(low), axis)), plane_high = ivec2(plane_of(vec3(high), axis));
-    int width = plane_high.x - plane_low.x + 1, columns = width * (plane_high.y - plane_low.y + 1);
-    for (int i = int(gl_GlobalInvocationID.x) % k_lanes; i < columns; i += k_lanes) {
+    for (int i = lane; i < columns; i += k_lanes) {
         ivec2 column = plane_low + ivec2(i % width, i / width);
         vec3 middle = vec3(unproject(column, 0, axis)) + 0.5;
         float depth = p[0][axis] - dot(across, middle - p[0]) / normal[axis];
@@ -97,7 +105,7 @@ void visit_triangles() {
         for (int d = from; d <= to; ++d) { // at most four: the slopes are at most 1
             ivec3 voxel = unproject(column, d, axis);
             if (!triangle_overlaps_voxel(p[0], p[1], p[2], voxel)) continue;
-            if (t.material.alpha_cutoff >= 0.0 && alpha_at(t.material, t.corners, p, vec3(voxel) + 0.5) < t.material.alpha_cutoff) continue;
+            if (cutoff >= 0.0 && alpha_at(materials[t.material], corners_of(t), p, vec3(voxel) + 0.5) < cutoff) continue;
             visit_voxel(t, voxel);
         }
     }
