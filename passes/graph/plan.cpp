@@ -23,6 +23,7 @@ struct Declared {
     const PassNode* node = nullptr;
     std::vector<SlotUse> uses;
     std::vector<std::string> programs; ///< that it runs
+    std::vector<CounterDeclaration> counters;
     std::vector<BindEntry> targets; ///< per use: the resource it points at
     int repeat_from = 0, repeat_to = 1;
     std::string declined; ///< reason, or empty
@@ -88,6 +89,7 @@ class Planner {
         }
         pass.uses = declaration.slot_uses();
         pass.programs = declaration.programs();
+        pass.counters = declaration.counters();
         pass.repeat_from = declaration.repeat_from;
         pass.repeat_to = declaration.repeat_to;
         for (SlotUse& use : pass.uses) {
@@ -427,6 +429,11 @@ class Planner {
                     }
                 }
                 pass.slots.push_back(std::move(slot));
+            }
+            for (const CounterDeclaration& counter : declared.counters) {
+                auto found = index.find(counter.buffer);
+                if (found != index.end())
+                    pass.counters.push_back({counter.label, found->second, counter.element, counter.overflow});
             }
             plan_.passes.push_back(std::move(pass));
         }

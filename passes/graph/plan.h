@@ -32,6 +32,13 @@ struct PlanSlot {
     glm::ivec2 neutral_size{1}; ///< of what the neutral value stands for
 };
 
+struct PlanCounter {
+    std::string label;
+    int resource = -1; ///< index into Plan::resources: a buffer of 4-byte integers
+    uint64_t element = 0;
+    bool overflow = false;
+};
+
 struct PlanPass {
     int node = -1; ///< index into GraphModel::nodes
     std::string id;
@@ -40,6 +47,7 @@ struct PlanPass {
     int repeat_from = 0, repeat_to = 1;
     GLbitfield barriers = 0;      ///< before the first step
     GLbitfield step_barriers = 0; ///< between steps
+    std::vector<PlanCounter> counters;
     std::vector<int> clears;      ///< resources cleared before it, because it writes them first
     const PlanSlot* find(const std::string& slot) const;
     bool runs(const std::string& program) const;
