@@ -22,7 +22,8 @@ void Counters::collect(const Plan& plan, const Allocations& allocations) {
         if (buffer && buffer.bytes() == bytes) next.copy = std::move(buffer);
     }
     std::erase_if(spare_, [](const Buffer& buffer) { return !buffer; });
-    if (!next.copy) next.copy = Buffer(bytes, nullptr, "counters read back", GL_DYNAMIC_STORAGE_BIT | GL_CLIENT_STORAGE_BIT);
+    if (!next.copy)
+        next.copy = Buffer(bytes, nullptr, "counters read back", GL_DYNAMIC_STORAGE_BIT | GL_CLIENT_STORAGE_BIT);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     GLintptr at = 0;
     for (const PlanPass& pass : plan.passes) {

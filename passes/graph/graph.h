@@ -4,8 +4,8 @@
 #include "core/file_watch.h"
 #include "gpu/timer.h"
 #include "graph/allocations.h"
-#include "graph/counters.h"
 #include "graph/context.h"
+#include "graph/counters.h"
 #include "graph/nan_check.h"
 
 #include <deque>

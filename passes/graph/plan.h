@@ -2,6 +2,7 @@
 // The plan of one frame: which passes run in which order, what each slot is bound to, sizes, barriers, and which passes
 // declined and why. Made without OpenGL, so `bounce graph` can print it anywhere.
 
+#include "core/error.h"
 #include "graph/graph_file.h"
 #include "graph/pass.h"
 
@@ -48,7 +49,7 @@ struct PlanPass {
     GLbitfield barriers = 0;      ///< before the first step
     GLbitfield step_barriers = 0; ///< between steps
     std::vector<PlanCounter> counters;
-    std::vector<int> clears;      ///< resources cleared before it, because it writes them first
+    std::vector<int> clears; ///< resources cleared before it, because it writes them first
     const PlanSlot* find(const std::string& slot) const;
     bool runs(const std::string& program) const;
 };
@@ -79,9 +80,12 @@ std::optional<double> scene_fact(const SceneFacts& facts, const std::string& nam
 void place_barriers(Plan& plan);
 
 class GraphModel;
+/// Plans a frame; collects all that is wrong, as far as one error does not follow from another. The plan is to be used
+/// only when there is none.
+Plan make_plan(const GraphModel& model, const SceneFacts& facts, glm::ivec2 size, ErrorList& errors);
 /// What would otherwise only fail when a frame runs: dispatch sizes, bound mips and layers, samplers and images of
-/// another kind than their resource. Throws Error with all of it.
-void check_plan(const GraphModel& model, const SceneFacts& facts, const Plan& plan);
+/// another kind than their resource.
+void check_plan(const GraphModel& model, const SceneFacts& facts, const Plan& plan, ErrorList& errors);
 /// Passes in order, who reads and writes what, sizes in bytes, barriers, declined passes with reasons.
 std::string plan_text(const GraphModel& model, const Plan& plan);
 /// The same as a Graphviz digraph.
