@@ -18,9 +18,9 @@ class HandMadeTest : public SceneGraphTest {
     static std::string view_code(bool orthographic) {
         return orthographic
                    ? R"(ShadowView(mat4(0.5,0,0,0, 0,0.5,0,0, 0,0,-0.1,0, 0,0,1,1), vec3(0), 0.01, vec3(0,0,1), 10.0,
-                                 0.125, 0, 0, 0))"
+                                 0.125, 1, 0, 0))"
                    : R"(ShadowView(mat4(1,0,0,0, 0,1,0,0, 0,0,0,1, 0,0,0.01,0), vec3(0), 0.01, vec3(0,0,1), 0.0,
-                                 0.0625, 0, 0, 0))"; // a map of 32 texels: the layers' mip 0 is its mip 1
+                                 0.0625, 1, 0, 0))"; // a map of 32 texels: the layers' mip 0 is its mip 1
     }
 
     /// `body` sets vec4 result for sample i; `layers` sets radiance, normal, depth for texel p of `layer` and `mip`.
