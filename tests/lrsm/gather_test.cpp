@@ -107,7 +107,8 @@ TEST_F(Gather, InAnEmptyGridIsOpenAndDark) {
     }
 }
 
-/// Walls as thick as the widest sphere leave nothing open, whatever the set.
+/// Walls as thick as the widest sphere leave nothing open, whatever the set: but for cones next to a corner that start
+/// outside already, a voxel away from their surface.
 TEST_F(Gather, BetweenThickWallsIsClosed) {
     // The walls of the room lie 15.06 voxels from the middle; its air is what lies within 12.
     const char* const k_thick = "any(lessThan(v, ivec3(4))) || any(greaterThan(v, ivec3(27))) ? 1.0 : 0.0";
@@ -115,22 +116,24 @@ TEST_F(Gather, BetweenThickWallsIsClosed) {
         for (bool leaves : {false, true})
             for (const char* aperture : {"5", "60"}) {
                 Gathered g = gather(k_thick, leaves, {{"gather.cone_set", set}, {"gather.aperture", aperture}});
-                EXPECT_LT(g.most_open, 0.011) << set << ", " << aperture << "°: a cone ends once it is blocked to .99";
+                EXPECT_LT(g.open, 0.002) << set << ", " << aperture;
+                EXPECT_LT(g.most_open, 0.05) << set << ", " << aperture;
             }
 }
 
 /// Thin cones through the voxels of thin walls too.
 TEST_F(Gather, ThinConesDoNotLeaveARoomOfOneVoxel) {
     Gathered g = gather("", true, k_tuned);
-    EXPECT_LT(g.most_open, 1e-3);
+    EXPECT_LT(g.open, 1e-3);
+    EXPECT_LT(g.most_open, 0.1) << "at most one cone of sixteen, next to a corner";
 }
 
 TEST_F(Gather, OfAUniformlyLitRoomIsItsRadiance) {
     Gathered g = gather("", true, k_tuned);
     note("as tuned", g);
     for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(g.mean[c] / k_radiance[c], 1, 0.05);
-    EXPECT_GT(g.darkest, 0.8);
+        EXPECT_NEAR(g.mean[c] / k_radiance[c], 1, 0.01);
+    EXPECT_GT(g.darkest, 0.9) << "a cone of sixteen may start beyond a corner";
     EXPECT_LT(g.brightest, 1.01) << "a mean of what is L at most";
     Sets along = k_tuned; // the same estimator at every sphere on the way
     along[3].second = "false";
