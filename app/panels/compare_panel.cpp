@@ -107,7 +107,7 @@ void draw_compare_panel(PanelContext& context) {
         if (ImGui::RadioButton(views[i], int(comparison.view) == i)) comparison.view = CompareView(i);
         note_widget(fmt::format("compare.view.{}", views[i]));
     }
-    if (comparison.view == CompareView::split) ImGui::SliderFloat("split", &comparison.split, 0, 1, "%.2f");
+    if (comparison.view == CompareView::split) ImGui::SliderFloat("##split", &comparison.split, 0, 1, "%.2f");
     note_widget("compare.split");
     if (comparison.view == CompareView::error)
         ImGui::SliderFloat("brightest", &comparison.error_range, 0.01f, 4, "%.2f", ImGuiSliderFlags_Logarithmic);
