@@ -236,3 +236,17 @@ TEST_F(OnALitPlane, LayersBySphereFindsWhatTheCentresLayerDoesNotHold) {
                          {{"sample.estimator", "lit_fraction"}, {"sample.layers_by_sphere", "true"}}),
                  1, "by sphere");
 }
+
+/// What lies where two layers overlap is in both of them, but counts once.
+TEST_F(OnALitPlane, InAnOverlapCountsOnce) {
+    // The plane at 4.1 m: at .9583 of layer 1, [1.8, 4.2], and at .09375 of layer 2, [3.8, 7].
+    std::string both =
+        "if (layer == 3 || layer == 1) { float mu = layer == 3 ? 0.958333 : 0.09375; radiance = vec4(0.7, 0.5, "
+        "0.3, 1.0); normal = vec4(0.0, 0.0, -1.0, 1.0); depth = vec4(mu, mu * mu, 1.0, 0.0); }";
+    for (const char* by_sphere : {"false", "true"}) {
+        expect_plane(sampled(4.1, 0.3, 0, 1, both, {{"sample.layers_by_sphere", by_sphere}}), 1, by_sphere);
+        expect_plane(sampled(4.1, 0.3, 0, 1, both,
+                             {{"sample.layers_by_sphere", by_sphere}, {"sample.estimator", "lit_fraction"}}),
+                     1, by_sphere);
+    }
+}

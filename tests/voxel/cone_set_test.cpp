@@ -94,6 +94,14 @@ TEST_F(ConeSets, WeightsSumToOneAndDirectionsToTheHemispheresMean) {
         EXPECT_NEAR(m.mean.z, 2.0 / 3, 0.2 / n) << n; // midpoint rule of √x: the error falls like n^−1.5
         EXPECT_NEAR(m.square, 0.5, 1e-5) << n;        // … and is none for x
         EXPECT_LT(std::hypot(m.mean.x, m.mean.y), 1.0 / n) << n;
+        // All around: the golden angle leaves no gap of more than 2.7 times the mean.
+        std::vector<double> turns;
+        for (const Cone& cone : spiral)
+            turns.push_back(std::atan2(cone.direction.y, cone.direction.x));
+        std::sort(turns.begin(), turns.end());
+        turns.push_back(turns.front() + 2 * M_PI);
+        for (size_t i = 0; i + 1 < turns.size(); ++i)
+            EXPECT_LT(turns[i + 1] - turns[i], 2.7 * 2 * M_PI / n) << n;
     }
 }
 
