@@ -6,6 +6,7 @@
 #include "lrsm/layers_oracle.h"
 
 #include <fmt/format.h>
+#include <memory>
 
 namespace bounce {
 

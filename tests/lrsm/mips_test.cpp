@@ -2,6 +2,7 @@
 #include "lrsm/layers_oracle.h"
 
 #include <fmt/format.h>
+#include <memory>
 
 using namespace bounce;
 
@@ -9,12 +10,17 @@ namespace {
 
 class LayerMips : public SceneGraphTest {
   protected:
-    SceneRunner run{
-        blocks(),
-        one_of_each(),
-        graph_file(fmt::format(
-            R"("passes":[{{"type":"rsm","params":{{"resolution":64}}}},{{"type":"lrsm_layers"}},{}])", k_mips_pass)),
-        {{"lrsm_layers.depth_layers", "3"}, {"lrsm_layers.normal_layers", "2"}}};
+    std::unique_ptr<SceneRunner> render() {
+        auto run = std::make_unique<SceneRunner>(
+            blocks(), one_of_each(),
+            graph_file(
+                fmt::format(R"("passes":[{{"type":"rsm","params":{{"resolution":64}}}},{{"type":"lrsm_layers"}},{}])",
+                            k_mips_pass)),
+            std::vector<std::pair<std::string, std::string>>{{"lrsm_layers.depth_layers", "3"},
+                                                             {"lrsm_layers.normal_layers", "2"}});
+        run->frame();
+        return run;
+    }
 };
 
 LayerTexel mean_of_four(const LayerTextures& finer, int place, int x, int y) {
@@ -31,10 +37,10 @@ LayerTexel mean_of_four(const LayerTextures& finer, int place, int x, int y) {
 } // namespace
 
 TEST_F(LayerMips, EachIsTheMeanOfTheOneBelow) {
-    run.frame();
+    auto run = render();
     std::vector<LayerTextures> mips;
-    for (int mip = 0; mip < run.texture("lrsm.radiance").desc().mips; ++mip)
-        mips.emplace_back(run, mip);
+    for (int mip = 0; mip < run->texture("lrsm.radiance").desc().mips; ++mip)
+        mips.emplace_back(*run, mip);
     ASSERT_EQ(mips.size(), 6u);
     EXPECT_EQ(mips.back().size, glm::ivec3(1, 1, 48));
     for (size_t mip = 1; mip < mips.size(); ++mip) {
@@ -53,10 +59,10 @@ TEST_F(LayerMips, EachIsTheMeanOfTheOneBelow) {
 
 /// The top of the chain is the mean of the reflective shadow map's own texels: the rounding of six levels at most.
 TEST_F(LayerMips, TheCoarsestHoldsTheMomentsOfTheWholeMap) {
-    run.frame();
-    LayersOracle oracle(run, 3, 2);
-    LayerTextures top(run, 5);
-    std::vector<int> table = run.read_buffer<int>("lrsm.table");
+    auto run = render();
+    LayersOracle oracle(*run, 3, 2);
+    LayerTextures top(*run, 5);
+    std::vector<int> table = run->read_buffer<int>("lrsm.table");
     int held = 0;
     double worst = 0;
     oracle.each_layer([&](int view, int d, int k) {
