@@ -9,10 +9,15 @@ uniform sampler2DArray scene_textures[8];
 vec4 sample_scene_texture(TextureUse use, vec2 uv0, vec2 uv1, float footprint, float coarsest) {
     vec3 at = vec3(transform_uv(use, uv0, uv1), float(use.layer));
     vec4 value = vec4(1.0);
+    // The level first: a size and a lookup in one branch crash the compiler of llvmpipe (LLVM 15) for some arrays.
+    float level = 0.0;
     for (int i = 0; i < 8; ++i) {
         if (i != use.array) continue;
-        vec2 size = vec2(textureSize(scene_textures[i], 0).xy);
-        value = textureLod(scene_textures[i], at, clamp(0.5 * log2(max(footprint * size.x * size.y, 1.0)), 0.0, coarsest));
+        ivec2 size = textureSize(scene_textures[i], 0).xy;
+        level = clamp(0.5 * log2(max(footprint * float(size.x * size.y), 1.0)), 0.0, coarsest);
+    }
+    for (int i = 0; i < 8; ++i) {
+        if (i == use.array) value = textureLod(scene_textures[i], at, level);
     }
     return value;
 }
