@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
     add_compare_command(app, chosen);
     add_chart_command(app, chosen);
     add_table_command(app, chosen);
+    add_stability_command(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp& help) {

@@ -26,9 +26,9 @@ VoxelFragment fragment_of(VisitedTriangle t, ivec3 voxel) {
     Material m = materials[t.material];
     vec3 facing = facing_of(t, corners);
     VoxelFragment f;
-    float metallic = clamp(m.metallic * sample_at_point(m.metallic_roughness_texture, point).b, 0.0, 1.0);
-    f.albedo = (m.base_colour * point.colour * sample_at_point(m.base_colour_texture, point)).rgb * (1.0 - metallic);
-    f.emission = m.emission * sample_at_point(m.emission_texture, point).rgb;
+    float metallic = clamp(m.metallic * sample_at_point(m.metallic_roughness_texture, point, 16.0).b, 0.0, 1.0);
+    f.albedo = (m.base_colour * point.colour * sample_at_point(m.base_colour_texture, point, 16.0)).rgb * (1.0 - metallic);
+    f.emission = m.emission * sample_at_point(m.emission_texture, point, 16.0).rgb;
     vec3 authored = vec3(0.0);
     for (int i = 0; i < 3; ++i)
         authored += point.weight[i] * corners[i].normal_v.xyz;

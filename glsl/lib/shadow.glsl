@@ -11,7 +11,8 @@ struct ShadowView {
     vec3 direction;
     float range;      // metres; 0: perspective
     float texel_size; // perspective: metres at a distance of one metre; orthographic: metres
-    float padding_x, padding_y, padding_z;
+    float window;     // part of the map, 0 … window of its half width, that none of the light's other views shows
+    float padding_x, padding_y;
 };
 
 // Distance along the view of a stored depth.

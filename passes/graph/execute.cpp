@@ -41,6 +41,7 @@ void Graph::execute(const FrameInputs& inputs) {
                     GL_BUFFER_UPDATE_BARRIER_BIT); // the copies wait for shaders' stores
     allocations_.keep_previous(plan_);
     history_valid_ = true;
+    counters_.collect(plan_, allocations_);
     glMemoryBarrier(GL_ALL_BARRIER_BITS); // whoever looks at the results (panels, readback) sees them
     default_state();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -55,7 +56,8 @@ void Graph::run_pass(const PlanPass& pass) {
     Times& times = times_[pass.id];
     if (!times.timer) times.timer = std::make_unique<GpuTimer>(timer_mode_);
     times.timer->begin();
-    bool usable = std::all_of(node.programs.begin(), node.programs.end(), [&](auto& p) { return p->usable() || !pass.runs(p->name()); });
+    bool usable = std::all_of(node.programs.begin(), node.programs.end(),
+                              [&](auto& p) { return p->usable() || !pass.runs(p->name()); });
     for (int resource : pass.clears) {
         allocations_.clear(resource, plan_.resources[size_t(resource)].declaration.neutral);
     }
@@ -97,6 +99,7 @@ void Graph::forget_timings() {
 
 void Graph::finish_timings() {
     glFinish();
+    counters_.finish();
     for (auto& [id, times] : times_)
         take_timings(times);
 }

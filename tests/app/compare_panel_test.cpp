@@ -1,6 +1,6 @@
 // The Compare panel: a reference in the background, what the viewport shows of the pair, live figures and points.
 #include "app/panel_fixture.h"
-#include "app/ui/comparison.h"
+#include "app/ui/live_comparison.h"
 
 #include <chrono>
 #include <thread>
@@ -31,7 +31,7 @@ class ComparePanel : public PanelsTest {
             << comparison().problem();
         frame();
     }
-    Comparison& comparison() { return *ui.comparison; }
+    LiveComparison& comparison() { return *ui.comparison; }
     std::vector<float> picture(double seconds = 0) {
         const GpuTexture* texture = comparison().picture(*session, seconds);
         return texture ? texture->read() : std::vector<float>();

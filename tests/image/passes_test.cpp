@@ -101,6 +101,19 @@ TEST_F(Passes, EachRunsInSomeGraphWithoutErrorsAndWithFiniteResults) {
 }
 
 /// A scene without lights, emission or environment: nothing to do is no error either.
+/// The default shot has textures of several sizes, alpha tests and gloss: enough to have crashed a driver's compiler.
+TEST_F(Passes, EveryGraphRendersTheDefaultShot) {
+    for (const std::string& graph : graph_names()) {
+        SessionOptions options;
+        options.graph = graph;
+        options.size = glm::ivec2(32, 18);
+        Session session(options);
+        session.render();
+        for (const GraphProblem& problem : session.graph().problems())
+            ADD_FAILURE() << graph << ": " << problem.error.text();
+    }
+}
+
 TEST_F(Passes, RunOnASceneThatNeedsNoneOfThem) {
     TinyScene().quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}).write(folder.path(), "dark");
     std::string shot = write_shot(folder.path(), "dark", "dark.gltf", {0, 1, 2}, {0, 0, 0}, "");
