@@ -1,4 +1,5 @@
-// Voxelization of the scene into albedo, normal and emission volumes, static and dynamic geometry apart (DVS, section V).
+// Voxelization of the scene into albedo, normal and emission volumes, static and dynamic geometry apart (DVS, section
+// V).
 #include "core/error.h"
 #include "graph/context.h"
 
@@ -11,8 +12,7 @@ namespace bounce {
 class VoxelizationPass : public Pass {
   public:
     void describe(PassDescription& description) override {
-        for (const char* name :
-             {"voxelize", "compact", "finish_list", "clear_dynamic", "forget_dynamic", "resolve"})
+        for (const char* name : {"voxelize", "compact", "finish_list", "clear_dynamic", "forget_dynamic", "resolve"})
             description.program(name, {std::string("dvs/") + name + ".comp"});
         for (const char* name : {"resolution_of_grid", "operation", "kind", "emission_scale"})
             description.constant(name);

@@ -1,0 +1,208 @@
+// Voxelization against exact triangle–box overlap in double precision: which voxels, which means, and what moves.
+#include "support/scene_runner.h"
+#include "voxel/overlap_oracle.h"
+
+#include <set>
+
+using namespace bounce;
+
+namespace {
+
+constexpr int k_resolution = 32;
+const char* const k_graph = R"("passes":[{"type":"voxelization","params":{"resolution":32}}])";
+using Sets = std::vector<std::pair<std::string, std::string>>;
+
+/// Slanted, crossing and tiny surfaces, each of its own colour.
+Scene slanted() {
+    MadeScene made;
+    made.box({-0.92f, -0.83f, -0.71f}, {-0.31f, -0.42f, -0.13f}, {0.9f, 0.2f, 0.1f})
+        .quad({-0.7f, 0.11f, 0.63f}, {0.83f, 0.37f, 0.91f}, {0.97f, 0.52f, -0.57f}, {-0.63f, 0.29f, -0.81f},
+              {0.2f, 0.8f, 0.3f})
+        .quad({0.13f, -0.9f, -0.41f}, {0.31f, -0.87f, 0.77f}, {0.42f, 0.53f, 0.69f}, {0.19f, 0.49f, -0.53f},
+              {0.1f, 0.3f, 0.7f})
+        .triangle({0.71f, -0.731f, -0.72f}, {0.723f, -0.725f, -0.716f}, {0.718f, -0.711f, -0.713f}, {0.6f, 0.5f, 0.4f});
+    made.material().emission = {2, 1, 0.5f};
+    return made.scene;
+}
+
+struct Mean {
+    int fragments = 0, borderline = 0;
+    glm::dvec3 albedo{0}, normal{0}, emission{0};
+};
+
+/// The fragments of each voxel: every triangle that overlaps it counts once.
+std::vector<Mean> means_of(const Scene& scene) {
+    OverlapOracle oracle(scene, k_resolution);
+    std::vector<Mean> means(size_t(k_resolution) * k_resolution * k_resolution);
+    SceneState state = evaluate_scene(scene, 0, 0);
+    for (const Instance& instance : state.instances) {
+        const Material& material = scene.materials[size_t(instance.primitive.material)];
+        for (uint32_t i = 0; i + 2 < instance.primitive.index_count; i += 3) {
+            std::array<glm::dvec3, 3> p;
+            glm::dvec3 low(1e9), high(-1e9);
+            for (uint32_t k = 0; k < 3; ++k) {
+                const Vertex& v = scene.vertices[scene.indices[instance.primitive.first_index + i + k]];
+                p[k] = (glm::dvec3(instance.world * glm::vec4(v.position, 1)) - oracle.origin) *
+                       (k_resolution / oracle.side);
+                low = glm::min(low, p[k]), high = glm::max(high, p[k]);
+            }
+            glm::dvec3 normal(
+                scene.vertices[scene.indices[instance.primitive.first_index + i]].normal); // all three are the same
+            for (int z = int(low.z) - 1; z <= int(high.z) + 1; ++z)
+                for (int y = int(low.y) - 1; y <= int(high.y) + 1; ++y)
+                    for (int x = int(low.x) - 1; x <= int(high.x) + 1; ++x) {
+                        if (glm::any(glm::lessThan(glm::ivec3(x, y, z), glm::ivec3(0))) ||
+                            glm::any(glm::greaterThanEqual(glm::ivec3(x, y, z), glm::ivec3(k_resolution))))
+                            continue;
+                        double gap = separation(p, {x, y, z});
+                        Mean& mean = means[size_t(x + k_resolution * (y + k_resolution * z))];
+                        if (std::abs(gap) < 1e-4) ++mean.borderline;
+                        if (gap > 0) continue;
+                        ++mean.fragments;
+                        mean.albedo += glm::dvec3(material.base_colour);
+                        mean.normal += normal;
+                        mean.emission += glm::dvec3(material.emission);
+                    }
+        }
+    }
+    for (Mean& mean : means) {
+        double share = mean.fragments ? 1.0 / mean.fragments : 0;
+        mean.albedo *= share, mean.normal *= share, mean.emission *= share;
+    }
+    return means;
+}
+
+class Voxelization : public SceneGraphTest {
+  protected:
+    /// Compares with the means, apart from voxels that a triangle just touches.
+    void expect_means(const std::string& averaging, double tolerance, double emission_tolerance) {
+        Scene scene = slanted();
+        SceneRunner run(scene, {}, graph_file(k_graph), {{"voxelization.averaging", averaging}});
+        run.frame();
+        std::vector<float> albedo = run.read("voxels.albedo"), normal = run.read("voxels.normal"),
+                           emission = run.read("voxels.emission");
+        std::vector<Mean> means = means_of(scene);
+        int occupied = 0, shared = 0;
+        for (size_t i = 0; i < means.size(); ++i) {
+            const Mean& mean = means[i];
+            if (mean.borderline) continue;
+            ASSERT_EQ(albedo[4 * i + 3] > 0, mean.fragments > 0) << averaging << ", voxel " << i;
+            if (!mean.fragments) continue;
+            ++occupied;
+            shared += mean.fragments > 1;
+            for (int k = 0; k < 3; ++k) {
+                EXPECT_NEAR(albedo[4 * i + size_t(k)], mean.albedo[k], tolerance) << averaging << ", voxel " << i;
+                EXPECT_NEAR(normal[4 * i + size_t(k)], mean.normal[k], 2 * tolerance + 0.005) << averaging;
+                EXPECT_NEAR(emission[4 * i + size_t(k)], mean.emission[k], emission_tolerance) << averaging;
+            }
+        }
+        EXPECT_GT(occupied, 1000);
+        EXPECT_GT(shared, 100);
+    }
+};
+
+} // namespace
+
+TEST_F(Voxelization, SumsAreTheMeansOfAllFragments) {
+    expect_means("sum", 0.003, 0.002);
+}
+
+/// Eight bits, rounded at each step: off by a few of 255.
+TEST_F(Voxelization, RunningAveragesAreTheMeansUpToTheirRounding) {
+    expect_means("average", 4.0 / 255, 8.0 / 255);
+}
+
+TEST_F(Voxelization, LastWritersAreOneOfTheFragments) {
+    Scene scene = slanted();
+    SceneRunner run(scene, {}, graph_file(k_graph), {{"voxelization.averaging", "last_writer"}});
+    run.frame();
+    std::vector<float> albedo = run.read("voxels.albedo");
+    std::vector<Mean> means = means_of(scene);
+    int occupied = 0;
+    for (size_t i = 0; i < means.size(); ++i) {
+        if (means[i].borderline) continue;
+        ASSERT_EQ(albedo[4 * i + 3] > 0, means[i].fragments > 0) << "voxel " << i;
+        if (!means[i].fragments) continue;
+        ++occupied;
+        bool known = false;
+        for (const Material& m : scene.materials)
+            known = known || glm::length(glm::vec3(m.base_colour) -
+                                         glm::vec3(albedo[4 * i], albedo[4 * i + 1], albedo[4 * i + 2])) < 0.01f;
+        EXPECT_TRUE(known) << "voxel " << i << " is torn between materials";
+    }
+    EXPECT_GT(occupied, 1000);
+}
+
+TEST_F(Voxelization, SumsGiveTheSameBytesEveryRun) {
+    std::vector<float> first;
+    for (int run_index = 0; run_index < 2; ++run_index) {
+        SceneRunner run(slanted(), {}, graph_file(k_graph), {{"voxelization.averaging", "sum"}});
+        run.frame();
+        std::vector<float> normal = run.read("voxels.normal");
+        if (run_index) {
+            EXPECT_EQ(normal, first);
+        }
+        first = normal;
+    }
+}
+
+TEST_F(Voxelization, ListsEachOccupiedVoxelOnce) {
+    SceneRunner run(slanted(), {}, graph_file(k_graph), {{"voxelization.averaging", "sum"}});
+    run.frame();
+    std::vector<float> albedo = run.read("voxels.albedo");
+    std::vector<uint32_t> counts = run.read_buffer<uint32_t>("voxels.counts");
+    std::vector<uint32_t> list = run.read_buffer<uint32_t>("voxels.list");
+    uint32_t listed = counts[3];
+    ASSERT_LE(listed, list.size());
+    std::set<uint32_t> entries(list.begin(), list.begin() + listed);
+    EXPECT_EQ(entries.size(), listed);
+    size_t occupied = 0;
+    for (size_t i = 0; i < albedo.size(); i += 4)
+        occupied += albedo[i + 3] > 0;
+    EXPECT_EQ(occupied, listed);
+    EXPECT_EQ(counts[5], 0u);
+}
+
+/// What moves is cleared and voxelized anew; what does not is left alone, until it changes.
+TEST_F(Voxelization, FollowsDynamicGeometryAndStaticChanges) {
+    MadeScene made;
+    made.quad({-1, -1, -1}, {1, -1, -1}, {1, -1, 1}, {-1, -1, 1}, {0.8f, 0.8f, 0.8f})
+        .quad({-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}, {0.3f, 0.3f, 0.3f})
+        .box({-0.4f, -0.3f, -0.2f}, {-0.1f, 0.1f, 0.2f}, {0.9f, 0.2f, 0.1f});
+    for (const char* averaging : {"average", "last_writer", "sum"}) {
+        auto moved = [&](SceneRunner& run, float by) {
+            for (size_t i = 2; i < run.state.instances.size(); ++i) {
+                run.state.instances[i].dynamic = true;
+                run.state.instances[i].world[3].x = by;
+            }
+            run.facts.dynamic_instances = run.state.instances.size() - 2;
+        };
+        SceneRunner run(made.scene, {directional_light({0, -1, 0}, {1, 1, 1})}, graph_file(k_graph),
+                        {{"voxelization.averaging", averaging}});
+        moved(run, 0);
+        run.frame();
+        moved(run, 0.37f);
+        run.frame();
+        SceneRunner fresh(made.scene, {directional_light({0, -1, 0}, {1, 1, 1})}, graph_file(k_graph),
+                          {{"voxelization.averaging", averaging}});
+        moved(fresh, 0.37f);
+        fresh.frame();
+        EXPECT_EQ(run.read("voxels.albedo"), fresh.read("voxels.albedo")) << averaging;
+        EXPECT_EQ(run.read("voxels.normal"), fresh.read("voxels.normal")) << averaging;
+        EXPECT_EQ(run.read("voxels.flags"), fresh.read("voxels.flags")) << averaging;
+        std::vector<uint32_t> counts = run.read_buffer<uint32_t>("voxels.counts");
+        EXPECT_GT(counts[4], 0u);
+        EXPECT_GT(counts[3], counts[4]) << "dynamic voxels follow the static ones";
+
+        // A static instance moves after all.
+        for (SceneRunner* one : {&run, &fresh})
+            one->state.instances[1].world[3].y = -0.6f;
+        run.frame();
+        SceneRunner again(made.scene, {directional_light({0, -1, 0}, {1, 1, 1})}, graph_file(k_graph),
+                          {{"voxelization.averaging", averaging}});
+        moved(again, 0.37f);
+        again.state.instances[1].world[3].y = -0.6f;
+        again.frame();
+        EXPECT_EQ(run.read("voxels.albedo"), again.read("voxels.albedo")) << averaging;
+    }
+}
