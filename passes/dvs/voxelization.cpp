@@ -14,10 +14,15 @@ class VoxelizationPass : public Pass {
     void describe(PassDescription& description) override {
         for (const char* name : {"voxelize", "compact", "finish_list", "clear_dynamic", "forget_dynamic", "resolve"})
             description.program(name, {std::string("dvs/") + name + ".comp"});
+        description.program("raster", {"dvs/voxelize.vert", "dvs/voxelize.geom", "dvs/voxelize.frag"});
         for (const char* name : {"resolution_of_grid", "operation", "kind", "emission_scale"})
             description.constant(name);
         ParameterSet& p = description.parameters;
         p.add("resolution", resolution_, {8, 512}, "voxels", "along each side of the grid; a power of two");
+        p.add_choice(
+            "route", route_, {"raster", "compute"},
+            "raster: conservative, along the dominant axis, as published; compute: every voxel that a triangle "
+            "overlaps, without a rasterizer");
         p.add_choice("averaging", averaging_, {"average", "last_writer", "sum"},
                      "how the fragments of a voxel become one. average: packed running means by compare-and-swap, as "
                      "published; last_writer: one triangle's surface; sum: integer sums, the same every run");
@@ -63,7 +68,8 @@ class VoxelizationPass : public Pass {
         }
         d.creates_buffer("voxels.draw_starts", std::to_string(d.facts.instances + 1), 4).persistent = true;
         d.writes("voxels.draw_starts", Usage::storage);
-        for (const char* program : {"voxelize", "compact", "finish_list", "resolve"})
+        d.uses(route_ == Route::raster ? "raster" : "voxelize");
+        for (const char* program : {"compact", "finish_list", "resolve"})
             d.uses(program);
         bool dynamic = d.facts.dynamic_instances > 0;
         if (dynamic) d.uses("clear_dynamic"), d.uses("forget_dynamic");
@@ -93,6 +99,7 @@ class VoxelizationPass : public Pass {
     }
 
   private:
+    enum class Route { raster, compute };
     enum class Averaging { average, last_writer, sum };
     static constexpr int k_static = 1, k_dynamic = 2; // as in dvs/list.glsl
 
@@ -109,7 +116,9 @@ class VoxelizationPass : public Pass {
             state.insert(state.end(), bytes, bytes + sizeof(value));
         };
         if (!static_once_) add(++frames_);
-        add(resolution_), add(averaging_), add(room_), add(*c.number(c.plan().id + ".leaf_threshold"));
+        add(resolution_), add(route_), add(averaging_), add(room_),
+            add(c.number(c.plan().id + ".leaf_threshold").value_or(0)),
+            add(c.number(c.plan().id + ".fill").value_or(0));
         for (const GpuDraw& draw : c.scene().draw_list()) {
             if (draw.flags & 1u) continue;
             add(draw.world), add(draw.material), add(draw.first_index), add(draw.index_count);
@@ -143,12 +152,24 @@ class VoxelizationPass : public Pass {
         starts.resize(buffer.bytes() / sizeof(uint32_t), starts.back());
         buffer.update(0, starts.size() * sizeof(uint32_t), starts.data());
         int triangles = int(starts.back());
-        constexpr int k_lanes = 16, k_row = 65536; // as in voxel/triangle_voxels.glsl
-        glm::ivec3 threads(std::min(triangles, k_row) * k_lanes, (triangles + k_row - 1) / k_row, 1);
+        auto visit = [&] {
+            if (route_ == Route::raster) {
+                Targets none;
+                none.size = glm::ivec2(resolution_);
+                DrawOptions options;
+                options.which = !static_once_ ? DrawOptions::Which::all
+                                : flag        ? DrawOptions::Which::dynamic_only
+                                              : DrawOptions::Which::static_only;
+                c.draw_scene("raster", none, options);
+                return;
+            }
+            constexpr int k_lanes = 16, k_row = 65536; // as in voxel/triangle_voxels.glsl
+            c.dispatch("voxelize", {std::min(triangles, k_row) * k_lanes, (triangles + k_row - 1) / k_row, 1});
+        };
         c.set("kind", kind);
         c.set("operation", averaging_ == Averaging::average ? 2 : 0);
         wait();
-        c.dispatch("voxelize", threads);
+        visit();
         wait();
         c.dispatch("compact", glm::ivec3(resolution_));
         wait();
@@ -156,7 +177,7 @@ class VoxelizationPass : public Pass {
         wait();
         if (averaging_ == Averaging::sum) {
             c.set("operation", 1);
-            c.dispatch("voxelize", threads);
+            visit();
             wait();
         }
         c.dispatch_indirect("resolve", "voxels.counts");
@@ -164,6 +185,7 @@ class VoxelizationPass : public Pass {
     }
 
     int resolution_ = 128;
+    Route route_ = Route::raster;
     Averaging averaging_ = Averaging::average;
     bool static_once_ = true, emission_ = false;
     int room_ = 32;

@@ -2,6 +2,7 @@
 #include "support/scene_runner.h"
 #include "voxel/overlap_oracle.h"
 
+#include <fmt/format.h>
 #include <set>
 
 using namespace bounce;
@@ -9,7 +10,7 @@ using namespace bounce;
 namespace {
 
 constexpr int k_resolution = 32;
-const char* const k_graph = R"("passes":[{"type":"voxelization","params":{"resolution":32}}])";
+const char* const k_graph = R"("passes":[{"type":"voxelization","params":{"resolution":32,"route":"compute"}}])";
 using Sets = std::vector<std::pair<std::string, std::string>>;
 
 /// Slanted, crossing and tiny surfaces, each of its own colour.
@@ -204,5 +205,73 @@ TEST_F(Voxelization, FollowsDynamicGeometryAndStaticChanges) {
         again.state.instances[1].world[3].y = -0.6f;
         again.frame();
         EXPECT_EQ(run.read("voxels.albedo"), again.read("voxels.albedo")) << averaging;
+    }
+}
+
+namespace {
+
+/// Counts against exact overlap: voxels missing, extra, and how far the farthest extra one lies from any triangle.
+struct Against {
+    int occupied = 0, missing = 0, extra = 0;
+    double farthest = 0;
+};
+Against against_overlap(const Scene& scene, const std::vector<float>& albedo) {
+    OverlapOracle oracle(scene, k_resolution);
+    Against result;
+    for (size_t i = 0; i < oracle.separations.size(); ++i) {
+        double gap = oracle.separations[i];
+        bool set = albedo[4 * i + 3] > 0;
+        if (std::abs(gap) < OverlapCount::k_border) continue;
+        result.occupied += gap < 0;
+        result.missing += gap < 0 && !set;
+        if (gap > 0 && set) {
+            ++result.extra;
+            // Farther voxels are not weighed by the oracle: they count as very far.
+            result.farthest = std::max(result.farthest, gap);
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+TEST_F(Voxelization, ByRasterWithExactFillIsExactOverlap) {
+    Scene scene = slanted();
+    SceneRunner run(
+        scene, {}, graph_file(k_graph),
+        {{"voxelization.route", "raster"}, {"voxelization.fill", "exact"}, {"voxelization.averaging", "sum"}});
+    run.frame();
+    Against result = against_overlap(scene, run.read("voxels.albedo"));
+    EXPECT_GT(result.occupied, 1000);
+    EXPECT_EQ(result.missing, 0);
+    EXPECT_EQ(result.extra, 0);
+}
+
+/// As published: each column that a triangle touches has a voxel; none lies farther than the dilation of half a pixel
+/// and the column's slope allow.
+TEST_F(Voxelization, ByRasterAsPublishedHasAVoxelInEachColumnAndNoneFar) {
+    Scene scene = slanted();
+    SceneRunner run(scene, {}, graph_file(k_graph), {{"voxelization.route", "raster"}});
+    run.frame();
+    std::vector<float> albedo = run.read("voxels.albedo");
+    Against result = against_overlap(scene, albedo);
+    fmt::print("    {} of {} voxels missing, {} extra, the farthest {:.3f} voxels away\n", result.missing,
+               result.occupied, result.extra, result.farthest);
+    EXPECT_LT(result.farthest, 1.0);
+    EXPECT_LT(result.missing, 0.6 * result.occupied);
+    // Every voxel that the exact route has, has a neighbour of this route within one voxel.
+    OverlapOracle oracle(scene, k_resolution);
+    for (size_t i = 0; i < oracle.separations.size(); ++i) {
+        if (oracle.separations[i] > -OverlapCount::k_border) continue;
+        glm::ivec3 at = oracle.voxel_of(i);
+        bool near = false;
+        for (int k = 0; k < 27 && !near; ++k) {
+            glm::ivec3 p = at + glm::ivec3(k % 3, k / 3 % 3, k / 9) - 1;
+            if (glm::any(glm::lessThan(p, glm::ivec3(0))) ||
+                glm::any(glm::greaterThanEqual(p, glm::ivec3(k_resolution))))
+                continue;
+            near = albedo[4 * size_t(p.x + k_resolution * (p.y + k_resolution * p.z)) + 3] > 0;
+        }
+        EXPECT_TRUE(near) << at.x << " " << at.y << " " << at.z;
     }
 }
