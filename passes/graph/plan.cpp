@@ -214,6 +214,7 @@ class Planner {
 
     /// It had readers, all of them declined, and nothing of it is an output.
     bool unread(const Declared& pass) const {
+        if (!pass.node->entry.enabled) return false; // a person switched it on, to look at what it makes
         bool had_readers = false;
         for (size_t i = 0; i < pass.uses.size(); ++i) {
             if (!pass.uses[i].writes) continue;
