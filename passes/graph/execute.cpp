@@ -55,7 +55,8 @@ void Graph::run_pass(const PlanPass& pass) {
     Times& times = times_[pass.id];
     if (!times.timer) times.timer = std::make_unique<GpuTimer>(timer_mode_);
     times.timer->begin();
-    bool usable = std::all_of(node.programs.begin(), node.programs.end(), [&](auto& p) { return p->usable() || !pass.runs(p->name()); });
+    bool usable = std::all_of(node.programs.begin(), node.programs.end(),
+                              [&](auto& p) { return p->usable() || !pass.runs(p->name()); });
     for (int resource : pass.clears) {
         allocations_.clear(resource, plan_.resources[size_t(resource)].declaration.neutral);
     }

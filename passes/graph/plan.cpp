@@ -23,7 +23,7 @@ struct Declared {
     const PassNode* node = nullptr;
     std::vector<SlotUse> uses;
     std::vector<std::string> programs; ///< that it runs
-    std::vector<BindEntry> targets; ///< per use: the resource it points at
+    std::vector<BindEntry> targets;    ///< per use: the resource it points at
     int repeat_from = 0, repeat_to = 1;
     std::string declined; ///< reason, or empty
 };
@@ -56,9 +56,8 @@ class Planner {
   private:
     // --- declaring -------------------------------------------------------------------------------------------------
     ResourceDeclaration* find(const std::string& name) {
-        for (ResourceDeclaration& resource : resources_) {
+        for (ResourceDeclaration& resource : resources_)
             if (resource.name == name) return &resource;
-        }
         return nullptr;
     }
 
@@ -243,9 +242,8 @@ class Planner {
                 changed = changed || !pass.declined.empty();
             }
         }
-        for (const Declared& pass : passes_) {
+        for (const Declared& pass : passes_)
             if (!pass.declined.empty()) plan_.declined.push_back({pass.node->id(), pass.declined});
-        }
     }
 
     // --- ordering --------------------------------------------------------------------------------------------------

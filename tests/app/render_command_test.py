@@ -140,7 +140,8 @@ class Pictures(ProgramTest):
         self.assertEqual((self.out / "x.png").read_bytes(), (self.out / "y.png").read_bytes())
         result = self.render("z.png", *small, "--enable", "view_cubes", "--disable", "emission")
         self.assertIn("view_cubes", result.stdout)
-        self.assertNotIn("inspect", result.stdout)
+        self.assertIn("inspect: not run, switched off", result.stdout)
+        self.assertIn("emission: not run, switched off", result.stdout)
 
     def test_timings(self):
         result = self.render("x.png", "--timings", "t.json", "--frames", "3")
