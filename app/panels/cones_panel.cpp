@@ -163,8 +163,7 @@ void draw_cones_panel(PanelContext& context) {
         return;
     }
     state.chosen = std::clamp(state.chosen, 0, std::min(at.cones, k_most_recorded_cones) - 1);
-    show_text(fmt::format("pixel {}, {}", at.pixel.x, at.pixel.y));
-    ImGui::SameLine();
+    show_text(fmt::format("pixel {}, {}", at.pixel.x, at.pixel.y), k_dim_colour);
     show_text(fmt::format("E/π {}   occlusion {:.3f}", colour_text(glm::vec3(at.summed)), 1 - at.summed.w),
               k_accent_colour);
     show_tooltip(
