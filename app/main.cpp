@@ -5,7 +5,9 @@
 #include "core/error.h"
 #include "core/log.h"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <fmt/format.h>
 
 int main(int argc, char** argv) {
@@ -28,6 +30,8 @@ int main(int argc, char** argv) {
     add_reference_command(app, chosen);
     add_compare_command(app, chosen);
     add_chart_command(app, chosen);
+    add_table_command(app, chosen);
+    add_stability_command(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp& help) {
@@ -47,7 +51,10 @@ int main(int argc, char** argv) {
                 fmt::print("{}: {}\n", device.index, device.name);
             return 0;
         }
-        return chosen ? chosen() : run_default();
+        const int code = chosen ? chosen() : run_default();
+        // What is printed may be the result (--json): a full disk behind it is an error as behind any other file.
+        if (std::fflush(stdout) != 0) throw Error(std::string("cannot write the output: ") + std::strerror(errno));
+        return code;
     } catch (const Error& error) {
         fmt::print(stderr, "error: {}\n", error.what());
         return 2;

@@ -32,6 +32,8 @@ std::string timing_table(const Session& session) {
                        mib(graph.plan().total_bytes()));
     out += fmt::format("{:<24} {:>10} {:>18} {:>10.2f}\n", "scene (geometry, textures)", "", "",
                        mib(session.gpu_scene().geometry_bytes() + session.gpu_scene().texture_bytes()));
+    for (const CounterValue& counter : graph.counters())
+        out += fmt::format("{}: {} {}{}\n", counter.pass, counter.value, counter.label, counter.bad() ? " (!)" : "");
     for (const PlanDecline& declined : graph.plan().declined)
         out += fmt::format("{}: not run, {}\n", declined.id, declined.reason);
     return out;
@@ -50,6 +52,9 @@ void write_timings(const Session& session, const std::filesystem::path& path) {
                                   {"frames", t.samples},
                                   {"bytes", bytes_of_pass(graph.plan(), pass.id)}});
     }
+    json["counters"] = nlohmann::ordered_json::array();
+    for (const CounterValue& c : graph.counters())
+        json["counters"].push_back({{"id", c.pass}, {"label", c.label}, {"value", c.value}, {"overflow", c.overflow}});
     json["declined"] = nlohmann::ordered_json::array();
     for (const PlanDecline& d : graph.plan().declined)
         json["declined"].push_back({{"id", d.id}, {"reason", d.reason}});

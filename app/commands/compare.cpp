@@ -1,4 +1,5 @@
 // bounce compare: how far one picture is from another, part by part.
+#include "app/capture.h"
 #include "app/commands/command.h"
 #include "core/comparison.h"
 #include "core/error.h"
@@ -37,7 +38,7 @@ nlohmann::ordered_json figures_json(const ErrorFigures& f) {
             {"largest_error", f.largest_error}};
 }
 
-std::string comparison_json(const CompareArguments& arguments, const Comparison& comparison,
+std::string comparison_json(const CompareArguments& arguments, const LayerComparison& comparison,
                             const std::vector<SurfaceComparison>& surfaces) {
     nlohmann::ordered_json json;
     json["image"] = arguments.image;
@@ -60,7 +61,7 @@ std::string comparison_json(const CompareArguments& arguments, const Comparison&
     return json.dump(2);
 }
 
-void print_table(const Comparison& comparison, const std::vector<SurfaceComparison>& surfaces) {
+void print_table(const LayerComparison& comparison, const std::vector<SurfaceComparison>& surfaces) {
     fmt::print("{:28} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8} {:>7} {:>7}\n", "part", "mean",
                "reference", "bias %", "RMSE %", "noise %", "w/o noise", "relMSE", "SMAPE", "p99", "SSIM", "FLIP");
     auto row = [](const std::string& name, const ErrorFigures& f) {
@@ -82,6 +83,7 @@ void print_table(const Comparison& comparison, const std::vector<SurfaceComparis
 }
 
 int compare(const CompareArguments& arguments) {
+    if (!arguments.heatmap.empty()) check_output_folder(arguments.heatmap);
     bool image_display = false, reference_display = false;
     const LayeredImage image = read_picture(arguments.image, image_display);
     const LayeredImage reference = read_picture(arguments.reference, reference_display);
@@ -95,7 +97,7 @@ int compare(const CompareArguments& arguments) {
     options.display_values = image_display;
     options.ppd = arguments.ppd;
     if (arguments.exposure_given) options.exposure = float(arguments.exposure);
-    const Comparison comparison = compare_layers(image, reference, options);
+    const LayerComparison comparison = compare_layers(image, reference, options);
 
     std::vector<SurfaceComparison> surfaces;
     if (arguments.per_surface) {
@@ -106,6 +108,11 @@ int compare(const CompareArguments& arguments) {
         }
         if (surfaces.empty()) throw Error("--per-surface: neither file has gbuffer.normal and gbuffer.material");
     }
+    // The figures first: a false-colour picture that cannot be written does not cost them.
+    if (arguments.json)
+        fmt::print("{}\n", comparison_json(arguments, comparison, surfaces));
+    else
+        print_table(comparison, surfaces);
     if (!arguments.heatmap.empty()) {
         // The picture as a whole where there is one, unless a part was asked for.
         std::string part = comparison.parts.front().part;
@@ -117,10 +124,6 @@ int compare(const CompareArguments& arguments) {
         const Image errors = relative_error_map(a, b);
         write_png(arguments.heatmap, heat_map(errors, 0, arguments.heatmap_top, comparison.mask));
     }
-    if (arguments.json)
-        fmt::print("{}\n", comparison_json(arguments, comparison, surfaces));
-    else
-        print_table(comparison, surfaces);
     return 0;
 }
 

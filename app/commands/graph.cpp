@@ -22,7 +22,7 @@ int print_graph(const GraphArguments& arguments) {
     shared.sets = arguments.sets;
     shared.size = arguments.size;
     SessionOptions options = shared.options();
-    GraphModel model(load_graph_file(find_graph(arguments.name)));
+    GraphModel model(read_graph_file(find_graph(arguments.name)));
     for (const auto& [name, text] : options.sets)
         model.set(name, text, ParameterOrigin::command_line);
     Shot shot = load_shot(arguments.shot);

@@ -28,7 +28,7 @@ void print_set(const std::string& id, const ParameterSet& set, bool markdown) {
 }
 
 void print_graph_parameters(const std::filesystem::path& path, bool markdown) {
-    GraphModel model(load_graph_file(path));
+    GraphModel model(read_graph_file(path));
     if (markdown)
         fmt::print("\n### {}\n\n{}\n\n| parameter | value | range, unit | what it is |\n| --- | --- | --- | --- |\n",
                    model.file().name, model.file().about);

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <unistd.h>
 
 namespace bounce {
 
@@ -80,12 +81,14 @@ std::string add_metadata(const std::string& made, const ReferenceArguments& argu
     return json.dump();
 }
 
-Image8 to_display(const Image& image) {
+/// As the graphs' tone map does by default (no curve), so that both programs' pictures can be laid side by side.
+Image8 to_display(const Image& image, float exposure) {
+    const float scale = std::exp2(exposure);
     Image8 out{image.width, image.height, std::vector<uint8_t>(size_t(image.width) * size_t(image.height) * 4, 255)};
     for (size_t i = 0; i < size_t(image.width) * size_t(image.height); ++i) {
         for (int c = 0; c < 3; ++c) {
             const float value = image.pixels[i * size_t(image.channels) + size_t(std::min(c, image.channels - 1))];
-            out.rgba[4 * i + size_t(c)] = uint8_t(std::lround(255 * srgb_encode(value)));
+            out.rgba[4 * i + size_t(c)] = uint8_t(std::lround(255 * srgb_encode(value * scale)));
         }
     }
     return out;
@@ -96,7 +99,7 @@ void write_reference(const ReferenceArguments& arguments, const ReferenceResult&
     if (path.extension() == ".png") {
         const bool picture = arguments.resource.empty();
         const Image& image = result.image.layers.at(picture ? "out.radiance" : arguments.resource);
-        write_png(path, to_display(picture ? display_values(image, arguments.exposure) : image));
+        write_png(path, to_display(image, picture ? arguments.exposure : 0));
         return;
     }
     LayeredImage file;
@@ -106,6 +109,28 @@ void write_reference(const ReferenceArguments& arguments, const ReferenceResult&
         file.layers[arguments.resource] = result.image.layers.at(arguments.resource);
     file.metadata = add_metadata(result.image.metadata, arguments, result);
     write_exr(path, file);
+}
+
+/// Writes the reference. When that fails, what was computed must not be lost with it: the samples are in the cache, or
+/// else the whole picture goes to the folder for temporary files. The error says which.
+void write_or_save(const ReferenceArguments& arguments, const ReferenceResult& result) {
+    try {
+        write_reference(arguments, result);
+    } catch (const Error& error) {
+        if (!arguments.no_cache && result.kept_problem.empty()) {
+            throw Error(std::string(error.what()) + "; the samples are kept: the same command goes on from them");
+        }
+        const std::filesystem::path refuge =
+            std::filesystem::temp_directory_path() / fmt::format("bounce-reference-{}.exr", ::getpid());
+        LayeredImage file = result.image;
+        file.metadata = add_metadata(result.image.metadata, arguments, result);
+        try {
+            write_exr(refuge, file);
+        } catch (const Error& second) {
+            throw Error(fmt::format("{}; nor could it be saved elsewhere: {}", error.what(), second.what()));
+        }
+        throw Error(fmt::format("{}; all parts are saved in '{}'", error.what(), refuge.string()));
+    }
 }
 
 /// What is written besides the parts; such a resource has no noise of its own to go by.
@@ -155,7 +180,7 @@ int reference(ReferenceArguments arguments) {
     if (!result.kept_problem.empty()) {
         fmt::print(stderr, "warning: the samples could not be kept for a later run: {}\n", result.kept_problem);
     }
-    if (result.complete || result.samples >= 1) write_reference(arguments, result);
+    if (result.complete || result.samples >= 1) write_or_save(arguments, result);
     if (!arguments.quiet || !result.complete) {
         fmt::print("{}: {} samples a pixel, noise {:.2f} % of {}{}\n", arguments.output, result.samples,
                    100 * result.noise, goal.part,

@@ -32,7 +32,7 @@ int expand_all(const std::string& folder) {
     std::vector<std::string> done;
     for (const auto& entry : fs::directory_iterator(assets_folder() / "graphs")) {
         if (entry.path().extension() != ".json") continue;
-        GraphModel model(load_graph_file(entry.path()));
+        GraphModel model(read_graph_file(entry.path()));
         for (const auto& node : model.nodes()) {
             for (const auto& program : node->programs) {
                 program->scan(formats_for(*program), GraphModel::static_values(*node));

@@ -70,10 +70,12 @@ void run_chart(const ChartPlan& plan, const std::function<void(const std::string
 }
 
 void merge_charts(const std::vector<fs::path>& folders, const fs::path& folder) {
-    make_folder(folder / "points");
     for (const fs::path& from : folders) {
         if (!fs::is_directory(from / "points"))
             throw Error(fmt::format("'{}' is no chart's folder: there is no points/ in it", from.string()));
+    }
+    make_folder(folder / "points");
+    for (const fs::path& from : folders) {
         for (const ChartPoint& point : load_points(from))
             write_file_atomically(point_path(folder, point.key), point_to_json(point));
     }

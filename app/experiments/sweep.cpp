@@ -24,6 +24,12 @@ std::vector<ParameterValues> Sweep::combinations() const {
         }
         out = std::move(next);
     }
+    for (const auto& [name, values] : each) {
+        for (const std::string& value : values) {
+            out.push_back(base);
+            out.back().emplace_back(name, value);
+        }
+    }
     return out;
 }
 
@@ -55,7 +61,7 @@ Sweep load_sweep(const std::string& name) {
     }
     ErrorList errors;
     Sweep sweep;
-    const std::vector<std::string> keys = {"about", "base", "lists"};
+    const std::vector<std::string> keys = {"about", "base", "lists", "each"};
     if (!json.is_object()) throw Error(path.string() + ": a sweep is an object {\"base\": {…}, \"lists\": {…}}");
     for (const auto& [key, value] : json.items()) {
         if (key == "about" && value.is_string())
@@ -63,16 +69,16 @@ Sweep load_sweep(const std::string& name) {
         else if (key == "base" && value.is_object()) {
             for (const auto& [parameter, v] : value.items())
                 sweep.base.emplace_back(parameter, text_of(v));
-        } else if (key == "lists" && value.is_object()) {
+        } else if ((key == "lists" || key == "each") && value.is_object()) {
             for (const auto& [parameter, list] : value.items()) {
                 if (!list.is_array() || list.empty()) {
-                    errors.add("lists." + parameter + " must be a list of at least one value");
+                    errors.add(key + "." + parameter + " must be a list of at least one value");
                     continue;
                 }
                 std::vector<std::string> values;
                 for (const auto& v : list)
                     values.push_back(text_of(v));
-                sweep.lists.emplace_back(parameter, values);
+                (key == "lists" ? sweep.lists : sweep.each).emplace_back(parameter, values);
             }
         } else {
             errors.add(fmt::format("there is no key '{}' of that shape{}", key, did_you_mean(key, keys)));

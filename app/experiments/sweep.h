@@ -1,6 +1,8 @@
 #pragma once
 // Sweep files: base values and lists to permute.
-//   { "about": "…", "base": {"shadow_maps.resolution": 1024}, "lists": {"direct.normal_offset": [0, 1, 2]} }
+//   { "about": "…", "base": {"shadow_maps.resolution": 1024}, "lists": {"direct.normal_offset": [0, 1, 2]},
+//     "each": {"direct.filter_radius": [1, 2]} }
+// Lists are permuted with one another; the values of `each` are tried one by one on top of the base.
 
 #include <filesystem>
 #include <string>
@@ -15,7 +17,9 @@ struct Sweep {
     std::string about;
     ParameterValues base;
     std::vector<std::pair<std::string, std::vector<std::string>>> lists;
+    std::vector<std::pair<std::string, std::vector<std::string>>> each;
     /// Every combination: the base with one value of each list; the last list varies fastest. Without lists: the base.
+    /// Then, for every value of `each`, the base with that value alone.
     std::vector<ParameterValues> combinations() const;
 };
 

@@ -1,7 +1,7 @@
 // The Compare panel: the picture against the truth.
 #include "app/experiments/chart.h"
 #include "app/panels/panel.h"
-#include "app/ui/comparison.h"
+#include "app/ui/live_comparison.h"
 #include "app/ui/widget_rects.h"
 #include "core/error.h"
 
@@ -13,7 +13,7 @@
 namespace bounce {
 
 /// Error against time, both logarithmic: earlier points, and the present one in the accent colour.
-static void draw_points(const Comparison& comparison, const ComparePoint& live) {
+static void draw_points(const LiveComparison& comparison, const ComparePoint& live) {
     std::vector<ComparePoint> all = comparison.points;
     all.push_back(live);
     double low_x = 1e30, high_x = 0, low_y = 1e30, high_y = 0;
@@ -53,7 +53,7 @@ static void draw_points(const Comparison& comparison, const ComparePoint& live) 
                           100 * hovered->relative_rmse);
 }
 
-static void draw_figures(Comparison& comparison, PanelContext& context) {
+static void draw_figures(LiveComparison& comparison, PanelContext& context) {
     const ErrorFigures& f = comparison.figures();
     ImGui::Text("bias           %+8.2f %%", 100 * f.bias);
     ImGui::Text("relative RMSE   %7.2f %%", 100 * f.relative_rmse);
@@ -66,8 +66,8 @@ static void draw_figures(Comparison& comparison, PanelContext& context) {
 }
 
 void draw_compare_panel(PanelContext& context) {
-    if (!context.ui.comparison) context.ui.comparison = std::make_shared<Comparison>();
-    Comparison& comparison = *context.ui.comparison;
+    if (!context.ui.comparison) context.ui.comparison = std::make_shared<LiveComparison>();
+    LiveComparison& comparison = *context.ui.comparison;
     Session& session = context.session;
 
     int full = comparison.full_transport;
@@ -107,8 +107,11 @@ void draw_compare_panel(PanelContext& context) {
         if (ImGui::RadioButton(views[i], int(comparison.view) == i)) comparison.view = CompareView(i);
         note_widget(fmt::format("compare.view.{}", views[i]));
     }
-    if (comparison.view == CompareView::split) ImGui::SliderFloat("split", &comparison.split, 0, 1, "%.2f");
-    note_widget("compare.split");
+    if (comparison.view == CompareView::split) {
+        // Its own identity: the button that chooses the view is called "split" too.
+        ImGui::SliderFloat("border##split", &comparison.split, 0, 1, "%.2f");
+        note_widget("compare.split");
+    }
     if (comparison.view == CompareView::error)
         ImGui::SliderFloat("brightest", &comparison.error_range, 0.01f, 4, "%.2f", ImGuiSliderFlags_Logarithmic);
     if (comparison.view == CompareView::flicker) context.ui.redraw_panels = true;

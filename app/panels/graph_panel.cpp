@@ -158,7 +158,17 @@ void draw_running(PanelContext& context, const PlanPass& pass, double slowest) {
     if (steps != 1) label += fmt::format(" ×{}", steps);
     if (stale) label += " (failed)";
     if (bad) label += " (NaN)";
-    ImVec4 colour = stale || bad ? k_error_colour : pinned ? k_pinned_colour : ImGui::GetStyleColorVec4(ImGuiCol_Text);
+    std::string counted;
+    bool overflow = false;
+    for (const CounterValue& counter : graph.counters()) {
+        if (counter.pass != pass.id) continue;
+        counted += fmt::format("\n{} {}", counter.value, counter.label);
+        overflow = overflow || counter.bad();
+    }
+    if (overflow) label += " (overflow)";
+    ImVec4 colour = stale || bad || overflow ? k_error_colour
+                    : pinned                 ? k_pinned_colour
+                                             : ImGui::GetStyleColorVec4(ImGuiCol_Text);
     ImGui::PushStyleColor(ImGuiCol_Text, colour);
     bool clicked = ImGui::Selectable(label.c_str(), pinned, ImGuiSelectableFlags_SpanAllColumns);
     ImGui::PopStyleColor();
@@ -166,7 +176,7 @@ void draw_running(PanelContext& context, const PlanPass& pass, double slowest) {
     if (clicked && !output.empty()) pin(ui, graph, pinned ? "" : output);
     if (ImGui::IsItemHovered()) {
         ui.hovered = output;
-        std::string text = pass_details(graph.model(), graph.plan(), pass) + "\n" + time_text(timing);
+        std::string text = pass_details(graph.model(), graph.plan(), pass) + "\n" + time_text(timing) + counted;
         if (bad) text += fmt::format("\n{} values that it wrote are not finite", bad);
         if (stale) text += "\nIts newest program is wrong: see the shaders.";
         if (!output.empty())

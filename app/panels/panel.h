@@ -41,7 +41,7 @@ struct ParameterEdit {
     ParameterValue value; ///< as the widget has it (compiled-in parameters are applied at the end)
 };
 
-class Comparison;
+class LiveComparison;
 struct ConesState;
 
 /// State of the window that is no part of the session.
@@ -69,7 +69,7 @@ struct UiState {
     std::string notice;          ///< one line for the status bar
     bool notice_is_error = false;
 
-    std::shared_ptr<Comparison> comparison; ///< made when its panel is first opened
+    std::shared_ptr<LiveComparison> comparison; ///< made when its panel is first opened
     std::shared_ptr<ConesState> cones;      ///< likewise
     bool redraw_panels = false;             ///< set each frame by panels that move by themselves (progress, flicker)
 

@@ -1,5 +1,5 @@
 #include "app/ui/viewer_app.h"
-#include "app/ui/comparison.h"
+#include "app/ui/live_comparison.h"
 
 #include "app/capture.h"
 #include "app/ui/open.h"

@@ -1,7 +1,7 @@
 // One turn of the loop: wait, hear, render what changed.
 #include "app/capture.h"
 #include "app/ui/captures.h"
-#include "app/ui/comparison.h"
+#include "app/ui/live_comparison.h"
 #include "app/ui/open.h"
 #include "app/ui/style.h"
 #include "app/ui/viewer_app.h"
@@ -104,7 +104,7 @@ void ViewerApp::hear() {
     if (now < next_poll_) return;
     next_poll_ = now + k_poll_interval;
     // A reference that grows in the background, and the flicker between it and the picture, are seen without input.
-    const Comparison* comparison = ui_.comparison.get();
+    const LiveComparison* comparison = ui_.comparison.get();
     bool moving = comparison && (comparison->running() || comparison->view == CompareView::flicker);
     if (moving) gui_frames_ = std::max(gui_frames_, 1);
     attempt([&] {

@@ -1,7 +1,7 @@
 #include "app/ui/viewport.h"
 
 #include "app/hosts/window.h"
-#include "app/ui/comparison.h"
+#include "app/ui/live_comparison.h"
 #include "app/ui/style.h"
 #include "app/ui/widget_rects.h"
 #include "core/error.h"
@@ -22,11 +22,15 @@ const GpuTexture* Viewport::texture_to_show(PanelContext& context) {
     const Graph& graph = context.session.graph();
     bool plain = context.ui.hovered.empty() && context.ui.pinned.empty();
     if (context.ui.comparison && plain) {
-        if (const GpuTexture* pair = context.ui.comparison->picture(context.session, ImGui::GetTime())) {
-            shown_ = {};
-            drawn_frame_ = ~0ull;
-            failure_.clear();
-            return pair;
+        try {
+            if (const GpuTexture* pair = context.ui.comparison->picture(context.session, ImGui::GetTime())) {
+                shown_ = {};
+                drawn_frame_ = ~0ull;
+                failure_.clear();
+                return pair;
+            }
+        } catch (const Error& error) {
+            context.ui.say(error.what(), true); // the graph's own picture is shown instead
         }
     }
     ViewerSettings settings = shown_view(graph, context.ui);

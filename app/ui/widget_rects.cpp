@@ -1,5 +1,6 @@
 #include "app/ui/widget_rects.h"
 
+#include "app/ui/live_comparison.h"
 #include "core/log.h"
 
 #include <fstream>
@@ -58,6 +59,14 @@ void end_widget_frame(const PanelContext& context) {
     json["parameters"] = nlohmann::json::object();
     for (const auto& [name, text] : session.changed_parameters(ParameterOrigin::command_line)) {
         json["parameters"][name] = text;
+    }
+    if (const LiveComparison* comparison = context.ui.comparison.get()) {
+        json["comparison"] = {{"view", int(comparison->view)},
+                              {"split", comparison->split},
+                              {"running", comparison->running()},
+                              {"samples", comparison->samples()},
+                              {"relative_rmse", comparison->figures().relative_rmse},
+                              {"points", comparison->points.size()}};
     }
     json["widgets"] = nlohmann::json::object();
     for (const auto& [name, r] : widgets)

@@ -8,8 +8,25 @@ uniform sampler2D material_metallic_roughness; // g = roughness, b = metallic
 uniform sampler2D material_normal;
 uniform sampler2D material_emission;
 
-vec4 sample_base_colour(Material material, vec2 uv0, vec2 uv1, vec4 colour) {
-    return material.base_colour * colour * texture(material_base_colour, transform_uv(material.base_colour_texture, uv0, uv1));
+// Both sets of texture coordinates, and by how much they change from pixel to pixel.
+struct SurfaceUv {
+    vec4 at, dx, dy;
+};
+
+// Call it outside of any branch. The derivatives are those of the interpolated coordinates and not of transformed ones:
+// helper invocations along the edges of triangles may read zeros from the buffer of materials (Mesa's llvmpipe does), and
+// a derivative through them would fetch the coarsest mip there.
+SurfaceUv surface_uv(vec4 uv) {
+    return SurfaceUv(uv, dFdx(uv), dFdy(uv));
+}
+
+vec4 sample_slot(sampler2D map, TextureUse use, SurfaceUv uv) {
+    return textureGrad(map, transform_uv(use, uv.at.xy, uv.at.zw), turn_uv(use, uv.dx.xy, uv.dx.zw),
+                       turn_uv(use, uv.dy.xy, uv.dy.zw));
+}
+
+vec4 sample_base_colour(Material material, SurfaceUv uv, vec4 colour) {
+    return material.base_colour * colour * sample_slot(material_base_colour, material.base_colour_texture, uv);
 }
 
 bool alpha_rejects(Material material, float alpha) {

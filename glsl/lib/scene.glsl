@@ -59,11 +59,15 @@ layout(std430) readonly buffer scene_vertices { Vertex vertices[]; };
 layout(std430) readonly buffer scene_indices { uint indices[]; };
 #endif
 
-// KHR_texture_transform: offset + R(rotation)·(scale·uv)
-vec2 transform_uv(TextureUse use, vec2 uv0, vec2 uv1) {
+// KHR_texture_transform: offset + R(rotation)·(scale·uv). `turn_uv` is its linear part, as derivatives need it.
+vec2 turn_uv(TextureUse use, vec2 uv0, vec2 uv1) {
     vec2 uv = (use.uv_set == 0u ? uv0 : uv1) * use.scale;
     float s = sin(use.rotation), c = cos(use.rotation);
-    return use.offset + vec2(c * uv.x + s * uv.y, -s * uv.x + c * uv.y);
+    return vec2(c * uv.x + s * uv.y, -s * uv.x + c * uv.y);
+}
+
+vec2 transform_uv(TextureUse use, vec2 uv0, vec2 uv1) {
+    return use.offset + turn_uv(use, uv0, uv1);
 }
 
 #endif

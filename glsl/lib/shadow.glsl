@@ -11,7 +11,8 @@ struct ShadowView {
     vec3 direction;
     float range;      // metres; 0: perspective
     float texel_size; // perspective: metres at a distance of one metre; orthographic: metres
-    float padding_x, padding_y, padding_z;
+    float window;     // part of the map, 0 … window of its half width, that none of the light's other views shows
+    float padding_x, padding_y;
 };
 
 // Distance along the view of a stored depth.
@@ -32,24 +33,51 @@ int shadow_layer(Light light, vec3 position) {
     return light.shadow_base + (light.type == k_light_point ? cube_face(position - light.position) : 0);
 }
 
+// Distance along the view at which the ray through `ndc` meets the plane through `position`, kept within `most` metres of
+// `along`, the position's own distance: an edge-on plane is met anywhere.
+float shadow_plane_distance(ShadowView view, vec2 ndc, vec3 position, vec3 normal, float along, float most) {
+    // The first two rows of the matrix are the view's right and up, divided by its half width (at one metre).
+    vec3 right = vec3(view.view_projection[0].x, view.view_projection[1].x, view.view_projection[2].x);
+    vec3 up = vec3(view.view_projection[0].y, view.view_projection[1].y, view.view_projection[2].y);
+    vec3 across = right * (ndc.x / dot(right, right)) + up * (ndc.y / dot(up, up));
+    vec3 from = position - view.origin;
+    float met = view.range > 0.0 ? dot(normal, from - across) / dot(normal, view.direction)
+                                 : dot(normal, from) / dot(normal, view.direction + across);
+    return abs(met - along) < most ? met : along + most * sign(met - along);
+}
+
 // The share of the (2r+1)² texels around `position` from which the light is seen. `normal`: the geometric one, facing the
-// light. The position is moved along the normal by `normal_offset` texels times the sine of the angle between the normal
-// and the view's axis: on a plane, (r + ½)·√2 texels suffice (the depth of a tilted plane changes by tan θ a texel, and
-// the move gains 1/cos θ). The axis and not the light's direction counts: away from the axis of a perspective view, even
-// a plane that faces the light lies aslant to the texels.
+// light.
+//
+// With `receiver_plane`, a texel is compared with the depth of the surface's plane in the texel's own centre, where its
+// depth was taken, or with the position's where that is nearer (beyond a crease, the plane may lie behind what is there):
+// exact on planes without moving anything. Without it, the position's depth serves for all texels, and
+// must be moved along the normal by `normal_offset` texels times the sine of the angle between the normal and the view's
+// axis: on a plane, (r + ½)·√2 texels suffice (the depth of a tilted plane changes by tan θ a texel, and the move gains
+// 1/cos θ). The axis and not the light's direction counts: away from the axis of a perspective view, even a plane that
+// faces the light lies aslant to the texels. A move of d along the normal moves shadows by d·tan θ, always toward light.
 float shadow_visibility(sampler2DArray shadow_map, ShadowView view, int layer, vec3 position, vec3 normal,
-                        float normal_offset, float depth_bias, int radius) {
+                        float normal_offset, float depth_bias, int radius, bool receiver_plane) {
     float cosine = clamp(abs(dot(normal, view.direction)), 0.0, 1.0);
     float sine = sqrt(1.0 - cosine * cosine);
     float along = dot(position - view.origin, view.direction);
     float texel = view.range > 0.0 ? view.texel_size : view.texel_size * max(along, view.near_plane);
-    vec3 moved = position + normal * (texel * sine * (normal_offset + 1.4142 * float(radius)));
+    float filtered = receiver_plane ? 0.0 : 1.4142 * float(radius);
+    vec3 moved = position + normal * (texel * sine * (normal_offset + filtered));
 
     vec4 clip = view.view_projection * vec4(moved, 1.0);
     if (clip.w <= 0.0) return 1.0;
     vec2 uv = clip.xy / clip.w * 0.5 + 0.5;
     if (any(lessThan(uv, vec2(0.0))) || any(greaterThan(uv, vec2(1.0)))) return 1.0; // outside the map
-    float distance_here = dot(moved - view.origin, view.direction) - depth_bias * texel;
+    along = dot(moved - view.origin, view.direction);
+    float bias = depth_bias * texel;
+    if (receiver_plane) {
+        // Rasterizers snap vertices to 1/256 of a texel, which the slope of depth across the texels multiplies.
+        vec3 ray = view.range > 0.0 ? view.direction : (moved - view.origin) / along;
+        bias *= 1.0 + 0.1 * sine / max(abs(dot(normal, ray)), 1.0e-3);
+    }
+    const float k_steepest = 256.0;
+    float most = k_steepest * texel * float(radius + 1);
 
     ivec2 size = textureSize(shadow_map, 0).xy;
     ivec2 centre = ivec2(floor(uv * vec2(size)));
@@ -57,7 +85,12 @@ float shadow_visibility(sampler2DArray shadow_map, ShadowView view, int layer, v
     for (int y = -radius; y <= radius; ++y) {
         for (int x = -radius; x <= radius; ++x) {
             ivec2 at = clamp(centre + ivec2(x, y), ivec2(0), size - 1);
-            lit += shadow_distance(view, texelFetch(shadow_map, ivec3(at, layer), 0).r) >= distance_here ? 1.0 : 0.0;
+            float here = along;
+            if (receiver_plane) {
+                vec2 ndc = (vec2(at) + 0.5) / vec2(size) * 2.0 - 1.0;
+                here = min(along, shadow_plane_distance(view, ndc, moved, normal, along, most));
+            }
+            lit += shadow_distance(view, texelFetch(shadow_map, ivec3(at, layer), 0).r) >= here - bias ? 1.0 : 0.0;
         }
     }
     return lit / float((2 * radius + 1) * (2 * radius + 1));

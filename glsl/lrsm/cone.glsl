@@ -18,38 +18,31 @@ uniform float hit_radius = 1.5;       //! [0.25, 16] (voxels) hit_then_sample: r
 // Radiance along the cone, and in a its occlusion. `diameter`: 2·tan(θ/2), metres a metre.
 vec4 trace_lit_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter) {
     vec3 light = vec3(0.0);
-    float occlusion = 0.0, hit = 0.0;
-    float t = max(start_offset * grid.voxel, 1.0e-3 * grid.voxel);
-    float end = reach * scene_diagonal;
-    float most_occlusion = hit_then_sample ? hit_threshold : 0.99;
-    float marched = hit_then_sample ? 2.0 * tan(radians(0.5 * hit_aperture)) : diameter;
-    for (int i = 0; i < most_steps && t < end && occlusion < most_occlusion; ++i) {
+    if (hit_then_sample) {
+        float hit = find_hit(grid, apex, direction, 2.0 * tan(radians(0.5 * hit_aperture)), hit_threshold);
+        if (hit < 0.0) return vec4(0.0);
+        float radius = max(hit_radius * grid.voxel, 0.5 * diameter * hit);
+        for (int view = 0; view < views.length(); ++view)
+            light += sample_view(view, apex + hit * direction, radius, -direction, -1.0);
+        SEE_SPHERE(true, apex + hit * direction, hit, 2.0 * radius, 1.0, sphere_level(grid, 2.0 * radius), 1.0, light);
+        return vec4(light, 1.0);
+    }
+    float occlusion = 0.0;
+    float t = max(start_offset, 1.0e-3) * grid.voxel, end = reach * scene_diagonal;
+    for (int i = 0; i < most_steps && t < end && occlusion < 0.99; ++i) {
         vec3 centre = apex + t * direction;
         if (any(lessThan(centre, grid.origin)) || any(greaterThan(centre, grid.origin + grid.side))) break;
-        float d = max(marched * t, grid.voxel);
-        float level = sphere_level(grid, d), share = 0.0;
+        float d = max(diameter * t, grid.voxel), level = sphere_level(grid, d), share = 0.0;
         float alpha = sphere_occlusion(grid, centre, direction, level);
         vec3 before = light;
         if (alpha > 1.0e-3) {
             share = (1.0 - occlusion) * alpha;
-            if (hit_then_sample) {
-                hit = t;
-            } else {
-                for (int view = 0; view < views.length(); ++view)
-                    light += share * sample_view(view, centre, 0.5 * d, -direction, alpha);
-            }
+            for (int view = 0; view < views.length(); ++view)
+                light += share * sample_view(view, centre, 0.5 * d, -direction, alpha);
             occlusion += share;
         }
         SEE_SPHERE(false, centre, t, d, alpha, level, share, light - before);
         t += cone_step * d;
-    }
-    if (hit_then_sample && occlusion >= hit_threshold) {
-        occlusion = 1.0;
-        vec3 centre = apex + hit * direction;
-        float radius = max(hit_radius * grid.voxel, 0.5 * diameter * hit);
-        for (int view = 0; view < views.length(); ++view)
-            light += sample_view(view, centre, radius, -direction, -1.0);
-        SEE_SPHERE(true, centre, hit, 2.0 * radius, 1.0, sphere_level(grid, 2.0 * radius), 1.0, light);
     }
     return vec4(light, occlusion);
 }

@@ -24,10 +24,8 @@ void main() {
             Partition p = partitions[at.z];
             float z = shadow_distance(views[at.z], depth);
             int n = normal_layer(p, normal_layers, texelFetch(rsm_radiance, at, 0).a);
-            for (int d = 0; d < p.depth_layers; ++d) {
-                vec2 range = layer_range(p, d);
-                if (z >= range.x && z <= range.y) atomicAdd(tile[table_index(0, d, n)], 1u);
-            }
+            for (int d = 0; d < p.depth_layers; ++d)
+                if (in_depth_layer(p, d, z)) atomicAdd(tile[table_index(0, d, n)], 1u);
         }
     }
     barrier();

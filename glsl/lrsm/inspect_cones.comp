@@ -27,6 +27,7 @@ void keep_sphere(bool at_hit, vec3 centre, float t, float diameter, float alpha,
     seen_level = -1.0;
 }
 #define SEE_SPHERE(at_hit, centre, t, diameter, alpha, level, share, light) keep_sphere(at_hit, centre, t, diameter, alpha, level, share, light)
+#define SEE_STEP(centre, t, diameter, alpha, level) keep_sphere(false, centre, t, diameter, alpha, level, 0.0, vec3(0.0))
 #define SEE_LAYER(level) (++seen_layers, seen_level = (level))
 #include "lrsm/gather_cones.glsl"
 

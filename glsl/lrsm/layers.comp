@@ -39,15 +39,13 @@ void main() {
         n[i] = normal_layer(p, normal_layers, radiance[i].a);
     }
     for (int d = 0; d < depth_layers; ++d) {
-        vec2 range = d < p.depth_layers ? layer_range(p, d) : vec2(1.0, 0.0);
+        vec2 range = layer_range(p, d);
         for (int k = 0; k < normal_layers; ++k) {
             int place = table[table_index(view, d, k)];
             if (place < 0) continue;
             vec4 radiance_sum = vec4(0.0), normal_sum = vec4(0.0), depth_sum = vec4(0.0);
             for (int i = 0; i < 4; ++i) {
-                // The scene's ends are open: a rounded depth just outside still belongs to the first or last layer.
-                bool inside = z[i] >= 0.0 && (z[i] >= range.x || d == 0) && (z[i] <= range.y || d == p.depth_layers - 1);
-                if (d >= p.depth_layers || !inside || n[i] != k) continue;
+                if (z[i] < 0.0 || n[i] != k || !in_depth_layer(p, d, z[i])) continue;
                 float warped = warp_depth(range, z[i]);
                 radiance_sum += 0.25 * radiance[i];
                 normal_sum += 0.25 * vec4(normal[i].xyz, 1.0);

@@ -27,6 +27,13 @@ vec2 layer_range(Partition p, int i) {
     return vec2(p.depth[i] - below, p.depth[i + 1] + above);
 }
 
+// Whether a texel at z belongs to depth layer i. The scene's ends are open: a rounded depth just outside still belongs to the
+// first or last layer.
+bool in_depth_layer(Partition p, int i, float z) {
+    vec2 range = layer_range(p, i);
+    return i < p.depth_layers && (z >= range.x || i == 0) && (z <= range.y || i == p.depth_layers - 1);
+}
+
 // z in [zMin, zMax] → [0, 1] (layered variance shadow maps, Lauritzen & McCool 2008).
 float warp_depth(vec2 range, float z) {
     return clamp((z - range.x) / max(range.y - range.x, 1.0e-20), 0.0, 1.0);

@@ -52,9 +52,11 @@ struct SphereInMap {
 bool sphere_in_map(ShadowView view, vec3 centre, float radius, out SphereInMap at) {
     vec4 clip = view.view_projection * vec4(centre, 1.0);
     at.z = dot(centre - view.origin, view.direction);
-    at.uv = clip.xy / clip.w * 0.5 + 0.5;
+    vec2 plane = clip.xy / clip.w;
+    at.uv = plane * 0.5 + 0.5;
     if (clip.w <= 0.0 || at.z <= 0.0) return false;
-    if (any(lessThan(at.uv, vec2(0.0))) || any(greaterThan(at.uv, vec2(1.0)))) return false;
+    // Each sphere counts in one view of a light: the six of a point light overlap.
+    if (max(abs(plane.x), abs(plane.y)) > view.window) return false;
     float texel = view.texel_size * (view.range > 0.0 ? 1.0 : at.z);
     // The layers' mip 0 is the map's mip 1.
     at.level = max(log2(max(2.0 * radius / texel, 1.0)) - 1.0, finest_mip);

@@ -15,11 +15,14 @@ uniform sampler2D gbuffer_roughness_metallic;
 uniform sampler2D gbuffer_depth;
 uniform sampler2DArray shadow_depth;  //! optional
 layout(std430) readonly buffer shadow_views { ShadowView views[]; };  //! optional
+uniform sampler2DArray voxels_light_visibility;  //! optional
 layout(FORMAT_out_direct) writeonly uniform image2D out_direct;
 
 uniform bool shadows = true;         //! shadow maps are looked up; off: every light is seen from everywhere
-uniform float normal_offset = 1.0;   //! [0, 16] (texels) how far a point is moved along its normal before it is looked up
-uniform float depth_bias = 0.1;      //! [0, 16] (texels) how much nearer to the light a point is taken to be
+uniform int visibility = 0;          //! {shadow_map, cones} who tells what the light does not reach: cones through voxels are soft
+uniform bool receiver_plane = true;  //! compare each texel with the surface's plane at that texel; off: with the point's own depth
+uniform float normal_offset = 0.125; //! [0, 16] (texels) how far a point is moved along its normal before it is looked up
+uniform float depth_bias = 0.3;      //! [0, 16] (texels) how much nearer to the light a point is taken to be
 uniform int filter_radius = 0;       //! [0, 4] (texels) percentage-closer filtering over (2r + 1)² texels
 
 void main() {
@@ -45,9 +48,11 @@ void main() {
         float cosine = dot(n, l);
         // Both sides reflect, but light does not pass: it must come from the side that the viewer is on.
         if (cosine <= 0.0 || dot(face, l) <= 0.0 || max(irradiance.r, max(irradiance.g, irradiance.b)) <= 0.0) continue;
-        if (shadows && light.shadow_base >= 0) {
+        if (shadows && visibility == 1) {
+            irradiance *= texelFetch(voxels_light_visibility, ivec3(pixel, i), 0).r;
+        } else if (shadows && light.shadow_base >= 0) {
             int layer = shadow_layer(light, position);
-            irradiance *= shadow_visibility(shadow_depth, views[layer], layer, position, face, normal_offset, depth_bias, filter_radius);
+            irradiance *= shadow_visibility(shadow_depth, views[layer], layer, position, face, normal_offset, depth_bias, filter_radius, receiver_plane);
         }
         vec3 f = brdf_diffuse(base_colour, rm.y);
         if (diffuse_only == 0) f += brdf_specular(n, v, l, base_colour, rm.y, rm.x);

@@ -22,11 +22,11 @@ layout(location = 4) out vec4 emission; // radiance, W/(sr·m²)
 
 void main() {
     Material material = materials[surface_material];
-    vec4 base = sample_base_colour(material, surface.uv.xy, surface.uv.zw, surface.colour);
-    vec2 normal_uv = transform_uv(material.normal_texture, surface.uv.xy, surface.uv.zw);
-    vec3 mapped = texture(material_normal, normal_uv).xyz;
-    vec2 rm = texture(material_metallic_roughness, transform_uv(material.metallic_roughness_texture, surface.uv.xy, surface.uv.zw)).gb;
-    vec3 glow = texture(material_emission, transform_uv(material.emission_texture, surface.uv.xy, surface.uv.zw)).rgb;
+    SurfaceUv uv = surface_uv(surface.uv);
+    vec4 base = sample_base_colour(material, uv, surface.colour);
+    vec3 mapped = sample_slot(material_normal, material.normal_texture, uv).xyz;
+    vec2 rm = sample_slot(material_metallic_roughness, material.metallic_roughness_texture, uv).gb;
+    vec3 glow = sample_slot(material_emission, material.emission_texture, uv).rgb;
     vec3 face = cross(dFdx(surface.position), dFdy(surface.position));
     if (alpha_rejects(material, base.a)) discard;
 

@@ -23,9 +23,10 @@ layout(location = 1) out vec4 normal;   // world, toward the light; a = 1 where 
 
 void main() {
     Material material = materials[surface_material];
-    vec4 base = sample_base_colour(material, surface.uv.xy, surface.uv.zw, surface.colour);
-    vec3 mapped = texture(material_normal, transform_uv(material.normal_texture, surface.uv.xy, surface.uv.zw)).xyz;
-    float metallic = material.metallic * texture(material_metallic_roughness, transform_uv(material.metallic_roughness_texture, surface.uv.xy, surface.uv.zw)).b;
+    SurfaceUv uv = surface_uv(surface.uv);
+    vec4 base = sample_base_colour(material, uv, surface.colour);
+    vec3 mapped = sample_slot(material_normal, material.normal_texture, uv).xyz;
+    float metallic = material.metallic * sample_slot(material_metallic_roughness, material.metallic_roughness_texture, uv).b;
     vec3 face = cross(dFdx(surface.position), dFdy(surface.position));
     if (alpha_rejects(material, base.a)) discard;
 

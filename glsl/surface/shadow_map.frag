@@ -9,7 +9,8 @@ in Surface {
 flat in uint surface_material;
 
 void main() {
+    SurfaceUv uv = surface_uv(surface.uv);
     Material material = materials[surface_material];
     if (material.alpha_cutoff < 0.0) return;
-    if (alpha_rejects(material, sample_base_colour(material, surface.uv.xy, surface.uv.zw, surface.colour).a)) discard;
+    if (alpha_rejects(material, sample_base_colour(material, uv, surface.colour).a)) discard;
 }

@@ -5,6 +5,9 @@
 // linearly. Occlusion α is gathered front to back (Eq. 1).
 // With directional leaves the volume is six volumes one behind the other (voxel/occlusion_store.glsl): the three leaves
 // that face the cone are summed with weights |direction_k|, and clamped to 1.
+#ifndef SEE_STEP // what a view of the cones is told of each step toward a hit
+#define SEE_STEP(centre, t, diameter, alpha, level)
+#endif
 #include "lib/voxel_grid.glsl"
 
 uniform sampler3D voxels_occlusion;
@@ -58,6 +61,37 @@ float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float leve
         alpha = min(alpha, 1.0);
     }
     return opacity_exponent == 1.0 ? alpha : 1.0 - pow(1.0 - alpha, opacity_exponent);
+}
+
+// Where a thin cone is blocked: the distance at which its occlusion passes `threshold`; below 0: it is not. Steps of
+// cone_step·d, d = diameter·t, at least a voxel. Empty space is crossed by coarser mips: where the eight texels around a
+// point are empty, nothing lies within half a texel of it. (A single voxel of a leaf still shows in four mips of eight
+// bits, one of a mean in two.)
+float find_hit(VoxelGrid grid, vec3 apex, vec3 direction, float diameter, float threshold) {
+    float t = max(start_offset, 1.0e-3) * grid.voxel, end = reach * scene_diagonal;
+    float open = 1.0;
+    int coarsest = min(grid.leaves == 1 ? 2 : 4, textureQueryLevels(voxels_occlusion) - 1), skip = coarsest;
+    for (int i = 0; i < most_steps && t < end; ++i) {
+        vec3 centre = apex + t * direction;
+        if (any(lessThan(centre, grid.origin)) || any(greaterThan(centre, grid.origin + grid.side))) return -1.0;
+        float d = max(diameter * t, grid.voxel), level = sphere_level(grid, d);
+        float alpha = sphere_occlusion(grid, centre, direction, max(level, float(skip)));
+        SEE_STEP(centre, t, max(d, exp2(float(skip)) * grid.voxel), alpha, max(level, float(skip)));
+        if (float(skip) > level) {
+            if (alpha <= 0.0) {
+                t += 0.5 * exp2(float(skip)) * grid.voxel;
+                skip = min(skip + 1, coarsest);
+            } else {
+                --skip;
+            }
+            continue;
+        }
+        open *= 1.0 - alpha;
+        if (1.0 - open >= threshold) return t;
+        t += cone_step * d;
+        if (alpha <= 0.0) skip = min(skip + 1, coarsest);
+    }
+    return -1.0;
 }
 
 #endif

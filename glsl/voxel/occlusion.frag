@@ -25,7 +25,7 @@ ivec3 unproject(ivec2 plane, int depth, int axis) {
 
 void main() {
     Material material = materials[surface_material];
-    float alpha = sample_base_colour(material, surface.uv.xy, surface.uv.zw, surface.colour).a;
+    float alpha = sample_base_colour(material, surface_uv(surface.uv), surface.colour).a;
     if (gl_HelperInvocation || alpha_rejects(material, alpha)) return;
     bool both_sides = (material.flags & 1u) != 0u;
 

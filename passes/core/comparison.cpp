@@ -112,9 +112,10 @@ static bool is_radiance(const std::string& part) {
     return part.find("ambient_occlusion") == std::string::npos && part.find("display") == std::string::npos;
 }
 
-Comparison compare_layers(const LayeredImage& test, const LayeredImage& reference, const ComparisonOptions& options) {
+LayerComparison compare_layers(const LayeredImage& test, const LayeredImage& reference,
+                               const ComparisonOptions& options) {
     const std::vector<std::string> parts = options.parts.empty() ? common_parts(test, reference) : options.parts;
-    Comparison comparison;
+    LayerComparison comparison;
     {
         const Image first = part_of(reference, parts.front(), "the reference");
         comparison.mask = Mask(first.width, first.height);

@@ -38,14 +38,15 @@ struct SurfaceComparison {
     ErrorFigures figures;
 };
 
-struct Comparison {
+struct LayerComparison {
     Mask mask;
     bool edges_masked = false;
     std::vector<PartComparison> parts;
 };
 
 /// `test` against `reference`. Throws Error when nothing can be paired, sizes differ or a value is not finite.
-Comparison compare_layers(const LayeredImage& test, const LayeredImage& reference, const ComparisonOptions& options);
+LayerComparison compare_layers(const LayeredImage& test, const LayeredImage& reference,
+                               const ComparisonOptions& options);
 
 /// "Per surface": each glTF material and dominant normal axis of at least 0.5 % of the mask's pixels, the largest
 /// first. Needs gbuffer.material and gbuffer.normal in one of the files: else empty.

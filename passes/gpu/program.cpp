@@ -186,7 +186,7 @@ bool Program::build(const std::function<std::vector<std::string>(const ProgramIn
         if (!good) {
             std::vector<ShaderError> errors = translate_log(shader_log(shader), source, folder_);
             if (errors.empty())
-                errors.push_back({stages_.front(), 0, "", "does not compile (the driver does not say why)"});
+                errors.push_back({stages_[shaders.size()], 0, "", "does not compile (the driver does not say why)"});
             errors_.insert(errors_.end(), errors.begin(), errors.end());
         }
         glAttachShader(program, shader);
@@ -196,10 +196,7 @@ bool Program::build(const std::function<std::vector<std::string>(const ProgramIn
         glLinkProgram(program);
         GLint good = 0;
         glGetProgramiv(program, GL_LINK_STATUS, &good);
-        if (!good) {
-            std::string log = program_log(program);
-            errors_.push_back({stages_.front(), 0, "", "does not link: " + (log.empty() ? "no reason given" : log)});
-        }
+        if (!good) errors_ = translate_link_log(program_log(program), sources_, folder_);
     }
     for (GLuint shader : shaders) {
         glDetachShader(program, shader);

@@ -5,6 +5,7 @@
 #include "core/text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <fmt/format.h>
 #include <optional>
 #include <regex>
@@ -330,6 +331,49 @@ std::vector<ShaderError> translate_log(const std::string& log, const ShaderSourc
         if (error.message.find("warning") == 0) continue;
         errors.push_back(error);
     }
+    return errors;
+}
+
+/// The stage that a driver's sentence names first ("fragment shader input `x' …"); null when it names none.
+static const ShaderSource* stage_named(const std::string& line, const std::vector<ShaderSource>& stages) {
+    const ShaderSource* found = nullptr;
+    size_t first = std::string::npos;
+    const std::pair<const char*, ShaderStage> names[] = {{"vertex", ShaderStage::vertex},
+                                                         {"geometry", ShaderStage::geometry},
+                                                         {"fragment", ShaderStage::fragment},
+                                                         {"compute", ShaderStage::compute}};
+    std::string lower = line;
+    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    for (const auto& [name, stage] : names) {
+        size_t at = lower.find(name);
+        if (at >= first) continue;
+        for (const ShaderSource& source : stages) {
+            if (stage_of(source.files.front()) == stage) found = &source, first = at;
+        }
+    }
+    return found;
+}
+
+std::vector<ShaderError> translate_link_log(const std::string& log, const std::vector<ShaderSource>& stages,
+                                            const fs::path& folder) {
+    // NVIDIA heads what belongs to a stage ("Fragment info", underlined); others name it in the sentence.
+    static const std::regex heading(R"(^\s*\w+ info\s*$)"), underline(R"(^\s*-+\s*$)");
+    const ShaderSource* headed = nullptr;
+    std::vector<ShaderError> errors;
+    for (const std::string& line : split(log, '\n')) {
+        if (std::regex_match(line, heading)) headed = stage_named(line, stages);
+        if (std::regex_match(line, heading) || std::regex_match(line, underline)) continue;
+        const ShaderSource* stage = headed ? headed : stage_named(line, stages);
+        for (ShaderError& error : translate_log(line, stage ? *stage : stages.front(), folder)) {
+            if (!stage && stages.size() > 1) error.file = shown(stages.front().files.front(), folder), error.line = 0;
+            if (error.line == 0) error.source_line.clear();
+            error.message = fmt::format("does not link: {}", trim(error.message));
+            errors.push_back(error);
+        }
+    }
+    if (errors.empty())
+        errors.push_back(
+            {shown(stages.front().files.front(), folder), 0, "", "does not link (the driver does not say why)"});
     return errors;
 }
 

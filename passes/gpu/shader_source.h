@@ -72,5 +72,9 @@ ShaderSource expand_shader(const std::filesystem::path& file, const std::filesys
 /// Translates a driver's log: Mesa "0:12(5): error: …", NVIDIA "0(12) : error …", AMD and Intel "ERROR: 0:12: …".
 std::vector<ShaderError> translate_log(const std::string& log, const ShaderSource& source,
                                        const std::filesystem::path& folder);
+/// The same for a program's log, when its stages do not link: what the driver says of a stage is told with its file,
+/// and with the line where one is given; the rest with the first stage's file. Never empty.
+std::vector<ShaderError> translate_link_log(const std::string& log, const std::vector<ShaderSource>& stages,
+                                            const std::filesystem::path& folder);
 
 } // namespace bounce

@@ -41,6 +41,7 @@ void Graph::execute(const FrameInputs& inputs) {
                     GL_BUFFER_UPDATE_BARRIER_BIT); // the copies wait for shaders' stores
     allocations_.keep_previous(plan_);
     history_valid_ = true;
+    counters_.collect(plan_, allocations_);
     glMemoryBarrier(GL_ALL_BARRIER_BITS); // whoever looks at the results (panels, readback) sees them
     default_state();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -98,6 +99,7 @@ void Graph::forget_timings() {
 
 void Graph::finish_timings() {
     glFinish();
+    counters_.finish();
     for (auto& [id, times] : times_)
         take_timings(times);
 }

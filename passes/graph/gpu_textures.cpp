@@ -1,6 +1,7 @@
 // The texture part of GpuScene: size-bucketed arrays, and 2D views of their layers.
 #include "core/error.h"
 #include "core/log.h"
+#include "core/mip_chain.h"
 #include "graph/gpu_scene.h"
 
 #include <algorithm>
@@ -123,12 +124,17 @@ void GpuScene::upload_textures(const Scene& scene) {
                     sampler_for(bucket.wrap_u, bucket.wrap_v, bucket.nearest)};
         for (size_t layer = 0; layer < bucket.textures.size(); ++layer) {
             int index = bucket.textures[layer];
-            std::vector<uint8_t> pixels = resized(scene.textures[size_t(index)], bucket.size);
-            glTextureSubImage3D(array.texture.id(), 0, 0, 0, GLint(layer), bucket.size.x, bucket.size.y, 1, GL_RGBA,
-                                GL_UNSIGNED_BYTE, pixels.data());
+            const Image8 whole{bucket.size.x, bucket.size.y, resized(scene.textures[size_t(index)], bucket.size)};
+            auto upload = [&](int mip, const Image8& image) {
+                glTextureSubImage3D(array.texture.id(), mip, 0, 0, GLint(layer), image.width, image.height, 1, GL_RGBA,
+                                    GL_UNSIGNED_BYTE, image.rgba.data());
+            };
+            upload(0, whole);
+            int mip = 0;
+            for (const Image8& smaller : mip_chain(whole, bucket.srgb))
+                upload(++mip, smaller);
             places_[size_t(index)] = {array_index, int(layer)};
         }
-        glGenerateTextureMipmap(array.texture.id());
         for (size_t layer = 0; layer < bucket.textures.size(); ++layer) {
             size_t index = size_t(bucket.textures[layer]);
             const Texture& texture = scene.textures[index];

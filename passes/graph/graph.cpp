@@ -11,7 +11,7 @@
 namespace bounce {
 
 Graph::Graph(const std::filesystem::path& file, TimerMode timer_mode)
-    : model_(std::make_unique<GraphModel>(load_graph_file(file))), timer_mode_(timer_mode),
+    : model_(std::make_unique<GraphModel>(read_graph_file(file))), timer_mode_(timer_mode),
       frame_buffer_(sizeof(FrameConstants), nullptr, "Frame"),
       comparison_sampler_(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, "depth comparison"),
       empty_vertex_array_("no attributes") {
@@ -173,7 +173,7 @@ bool Graph::poll_files() {
     dirty_ = true;
     if (std::find(changed.begin(), changed.end(), model_->file().path) != changed.end()) {
         try {
-            auto next = std::make_unique<GraphModel>(load_graph_file(model_->file().path));
+            auto next = std::make_unique<GraphModel>(read_graph_file(model_->file().path));
             next->adopt_values(*model_);
             next->adopt_programs(*model_);
             try {

@@ -5,6 +5,7 @@
 #include "gpu/timer.h"
 #include "graph/allocations.h"
 #include "graph/context.h"
+#include "graph/counters.h"
 #include "graph/nan_check.h"
 
 #include <deque>
@@ -69,6 +70,8 @@ class Graph {
     /// Starts the statistics afresh (after a warm-up).
     void forget_timings();
     PassTiming timing(const std::string& id) const;
+    /// What the passes counted in the newest frame that has been read back.
+    const std::vector<CounterValue>& counters() const { return counters_.newest(); }
     double frame_ms() const; ///< sum of the passes' medians
     /// The texture behind a resource; null for buffers and unknown names.
     const GpuTexture* texture(const std::string& resource) const;
@@ -114,6 +117,7 @@ class Graph {
     bool history_valid_ = false;
     TimerMode timer_mode_;
     Allocations allocations_;
+    Counters counters_;
     FileWatch watch_;
     std::map<std::string, Times> times_;
     std::map<std::string, Built> built_;       ///< per "id/program"

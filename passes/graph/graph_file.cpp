@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
+#include <utility>
 
 namespace bounce {
 
@@ -325,7 +326,21 @@ std::filesystem::path find_graph(const std::string& name) {
     throw Error("there is no graph '" + name + "'" + did_you_mean(name, names));
 }
 
+bool GraphFile::may_lack(const std::string& expression_name) const {
+    bool parameter = expression_name.starts_with("graph.") || expression_name.find('.') == std::string::npos;
+    return parameter ? parameters_incomplete : incomplete;
+}
+
 GraphFile load_graph_file(const std::filesystem::path& path) {
+    GraphFile file = read_graph_file(path);
+    ErrorList errors;
+    for (const std::string& message : file.errors)
+        errors.add(message);
+    errors.throw_if_any(path.string());
+    return file;
+}
+
+GraphFile read_graph_file(const std::filesystem::path& path) {
     GraphFile file;
     file.path = path;
     file.name = path.stem().string();
@@ -339,41 +354,58 @@ GraphFile load_graph_file(const std::filesystem::path& path) {
         throw Error(fmt::format("{}:{}: not JSON: {}", path.string(), line, error.what()));
     }
     ErrorList errors;
+    size_t told = 0;
+    // Whether what was read last has errors; if so, a part of the file is not known in full.
+    auto bad = [&](bool& incomplete) {
+        bool any = errors.messages().size() > std::exchange(told, errors.messages().size());
+        incomplete = incomplete || any;
+        return any;
+    };
     {
         ObjectReader reader(root, "graph", errors);
         file.about = reader.text("about");
         if (const json* transport = reader.get("transport")) file.transport = read_transport(*transport, errors);
         const json* version = reader.get("version");
         if (!version || *version != 1) reader.error("'version' must be 1");
+        told = errors.messages().size();
         if (const json* parameters = reader.get("parameters"); parameters && parameters->is_object()) {
-            for (const auto& [name, value] : parameters->items())
-                file.parameters.push_back(read_parameter(name, value, errors));
+            for (const auto& [name, value] : parameters->items()) {
+                ParameterInfo info = read_parameter(name, value, errors);
+                if (!bad(file.parameters_incomplete)) file.parameters.push_back(std::move(info));
+            }
         } else if (parameters) {
             reader.error("'parameters' must be an object");
+            bad(file.parameters_incomplete);
         }
         if (const json* resources = reader.get("resources"); resources && resources->is_object()) {
             for (const auto& [name, value] : resources->items()) {
-                file.resources.push_back(read_resource(name, value, file.set_fields[name], errors));
+                ResourceDeclaration resource = read_resource(name, value, file.set_fields[name], errors);
+                if (!bad(file.incomplete)) file.resources.push_back(std::move(resource));
             }
         } else if (resources) {
             reader.error("'resources' must be an object");
+            bad(file.incomplete);
         }
         const json* passes = reader.get("passes");
         if (passes && passes->is_array() && !passes->empty()) {
             for (size_t i = 0; i < passes->size(); ++i) {
-                file.nodes.push_back(read_node((*passes)[i], fmt::format("passes[{}]", i), errors));
+                NodeEntry node = read_node((*passes)[i], fmt::format("passes[{}]", i), errors);
+                node.doubtful = bad(file.incomplete);
+                file.nodes.push_back(std::move(node));
             }
         } else {
             reader.error("'passes' must be a list of at least one pass");
         }
     }
+    if (bad(file.incomplete)) file.parameters_incomplete = true; // an unknown key may be one of these, misspelt
     std::set<std::string> ids;
-    for (const NodeEntry& node : file.nodes) {
+    for (NodeEntry& node : file.nodes) {
         if (!ids.insert(node.id).second) errors.add("two passes have the id '" + node.id + "'");
         if (node.id == "graph")
             errors.add("a pass cannot have the id 'graph': that name is the graph's own parameters");
+        node.doubtful = bad(file.incomplete) || node.doubtful;
     }
-    errors.throw_if_any(path.string());
+    file.errors = errors.messages();
     return file;
 }
 

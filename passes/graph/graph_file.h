@@ -54,6 +54,7 @@ struct NodeEntry {
     RepeatEntry repeat;
     std::string needs; ///< expression over scene facts; 0: the scene does not need the pass
     bool enabled = true;
+    bool doubtful = false; ///< something of it could not be read: what follows from it says nothing
 };
 
 /// The light transport that a graph models, so that it is held to a reference of the same.
@@ -72,11 +73,20 @@ struct GraphFile {
     std::vector<ResourceDeclaration> resources; ///< only the fields that `set_fields` names were given
     std::map<std::string, std::vector<std::string>> set_fields;
     std::vector<NodeEntry> nodes;
+    /// What is wrong with the file itself; GraphModel tells it with what else is wrong.
+    std::vector<std::string> errors;
+    // Because of them, there may be more than the above:
+    bool parameters_incomplete = false;
+    bool incomplete = false; ///< resources and passes
+    /// Whether an expression's name that is not found may be one that could not be read.
+    bool may_lack(const std::string& name) const;
 };
 
 /// Finds a graph by path or by name in the assets' graphs folder. Throws Error with the nearest.
 std::filesystem::path find_graph(const std::string& name);
-/// Throws Error that lists every error of the file.
+/// Reads all that can be read, and collects `errors`. Throws Error only for what is no JSON or no file.
+GraphFile read_graph_file(const std::filesystem::path& path);
+/// The same; throws Error that lists every error of the file.
 GraphFile load_graph_file(const std::filesystem::path& path);
 
 } // namespace bounce

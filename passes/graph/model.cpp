@@ -26,14 +26,31 @@ static std::unique_ptr<Pass> make_pass(const std::string& type) {
     throw Error("there is no pass type '" + type + "'");
 }
 
+/// A scene in which nearly every pass has something to do, for a graph that is judged before its scene is known.
+static SceneFacts usual_scene() {
+    SceneFacts facts;
+    facts.triangles = facts.vertices = 1000;
+    facts.materials = facts.instances = 1;
+    facts.glossy_materials = facts.emissive_materials = facts.alpha_tested_materials = 1;
+    facts.point_lights = facts.spot_lights = facts.directional_lights = 1;
+    facts.environment = true;
+    facts.bounds = facts.bounds_over_animation = {glm::vec3(-1), glm::vec3(1)};
+    return facts;
+}
+
 GraphModel::GraphModel(GraphFile file) : file_(std::move(file)) {
     ErrorList errors;
+    for (const std::string& message : file_.errors)
+        errors.add(message);
     for (const ParameterInfo& info : file_.parameters) {
         ParameterInfo declared = info;
         declared.in_shader = true; // no C++ member behind it
         graph_parameters_.declare_shader_parameter(declared);
     }
     for (const NodeEntry& entry : file_.nodes) {
+        bool known =
+            std::any_of(pass_types().begin(), pass_types().end(), [&](auto& t) { return t.name == entry.type; });
+        if (!known || (entry.type == "compute" && entry.shader.empty())) continue; // told already
         auto node = std::make_unique<PassNode>();
         node->entry = entry;
         node->enabled = entry.enabled;
@@ -50,6 +67,8 @@ GraphModel::GraphModel(GraphFile file) : file_(std::move(file)) {
         apply_file_values(*node, errors);
         nodes_.push_back(std::move(node));
     }
+    if (errors.empty()) return;
+    make_plan(*this, usual_scene(), {1280, 720}, errors);
     errors.throw_if_any(file_.path.string());
 }
 
@@ -124,7 +143,8 @@ void GraphModel::apply_file_values(PassNode& node, ErrorList& errors) {
             // A parameter of a shader that does not scan for the moment is not unknown, only out of sight.
             bool broken =
                 std::any_of(node.programs.begin(), node.programs.end(), [](auto& p) { return !p->errors().empty(); });
-            if (!broken || node.parameters.find(name))
+            bool unjudged = file_.parameters_incomplete && as_expression(text); // it may name what could not be read
+            if ((!broken || node.parameters.find(name)) && !unjudged)
                 errors.add(fmt::format("pass '{}': {}", node.id(), error.what()));
         }
     }

@@ -49,6 +49,14 @@ class PassDescription {
     std::vector<std::string> constants;
 };
 
+/// A number that a pass keeps on the GPU, shown in the graph panel and in reports.
+struct CounterDeclaration {
+    std::string label;     ///< "layers stored"
+    std::string buffer;    ///< a resource of 4-byte integers that the pass makes
+    uint64_t element = 0;  ///< which of them
+    bool overflow = false; ///< above 0 it tells that something was left out
+};
+
 /// What a pass reads and writes, as a function of its parameters and the scene.
 class Declaration {
   public:
@@ -70,6 +78,10 @@ class Declaration {
     }
     /// This pass runs that program: every slot of its shaders, with the access that they declare.
     void uses(const std::string& program);
+    void counts(const std::string& label, const std::string& buffer, uint64_t element, bool overflow = false) {
+        counters_.push_back({label, buffer, element, overflow});
+    }
+    const std::vector<CounterDeclaration>& counters() const { return counters_; }
     /// Execute is called for iteration = from, …, to − 1, with barriers between.
     void repeat(int from, int to) { repeat_from = from, repeat_to = to; }
 
@@ -83,6 +95,7 @@ class Declaration {
     std::function<std::vector<ShaderSlot>(const std::string&)> slots_of_;
     std::vector<SlotUse> uses_;
     std::vector<std::string> programs_;
+    std::vector<CounterDeclaration> counters_;
     std::vector<ResourceDeclaration> resources_;
 };
 

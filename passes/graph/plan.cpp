@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "graph/declared.h"
 #include "graph/expression.h"
 #include "graph/model.h"
 
@@ -9,28 +10,16 @@
 #include <fmt/format.h>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace bounce {
 
 namespace {
 
-bool is_builtin(const std::string& slot) {
-    return slot.starts_with("scene.") || slot.starts_with("material.");
-}
-
-/// A pass as declared, before anything is resolved.
-struct Declared {
-    const PassNode* node = nullptr;
-    std::vector<SlotUse> uses;
-    std::vector<std::string> programs; ///< that it runs
-    std::vector<BindEntry> targets;    ///< per use: the resource it points at
-    int repeat_from = 0, repeat_to = 1;
-    std::string declined; ///< reason, or empty
-};
-
 class Planner {
   public:
-    Planner(const GraphModel& model, const SceneFacts& facts, glm::ivec2 size) : model_(model), facts_(facts) {
+    Planner(const GraphModel& model, const SceneFacts& facts, glm::ivec2 size, ErrorList& errors)
+        : model_(model), facts_(facts), errors_(errors), incomplete_(model.file().incomplete) {
         plan_.size = size;
     }
 
@@ -38,22 +27,36 @@ class Planner {
         resources_ = model_.file().resources;
         for (const auto& node : model_.nodes())
             declare(*node);
-        check_sources();
-        errors_.throw_if_any("graph '" + model_.file().name + "'");
+        check_sources(passes_, resources_, incomplete_, errors_);
         decline();
-        std::vector<int> order = sort();
+        std::vector<int> order = order_passes(passes_, resources_, errors_);
         for (const ResourceDeclaration& resource : resources_)
             size_of(resource.name);
         for (Declared& pass : passes_)
             resolve_repeat(pass);
-        errors_.throw_if_any("graph '" + model_.file().name + "'");
         fill(order);
+        // What is wrong with a pass already, or with the size of what it uses, would only be told again in other words.
+        std::erase_if(plan_.passes, [&](const PlanPass& pass) { return !judged(pass); });
         place_barriers(plan_);
-        check_plan(model_, facts_, plan_);
+        check_plan(model_, facts_, plan_, errors_);
         return std::move(plan_);
     }
 
   private:
+    /// An error of a pass, unless it may follow from one that the file's reader told.
+    void tell(Declared& pass, std::string message) {
+        pass.faulty = true;
+        if (!pass.node->entry.doubtful) errors_.add(std::move(message));
+    }
+    bool judged(const PlanPass& pass) const {
+        const PassNode* node = model_.nodes()[size_t(pass.node)].get();
+        for (const Declared& declared : passes_) {
+            if (declared.node == node && (declared.faulty || node->entry.doubtful)) return false;
+        }
+        return std::none_of(pass.slots.begin(), pass.slots.end(),
+                            [&](const PlanSlot& slot) { return unsized_.contains(slot.bind.resource); });
+    }
+
     // --- declaring -------------------------------------------------------------------------------------------------
     ResourceDeclaration* find(const std::string& name) {
         for (ResourceDeclaration& resource : resources_)
@@ -81,12 +84,20 @@ class Planner {
                 evaluate(node.entry.needs, [&](auto& n) { return fact(n); }) == 0) {
                 pass.declined = "the scene has no " + node.entry.needs;
             }
+        } catch (const Error& error) {
+            tell(pass, "pass '" + node.id() + "': " + error.what());
+        }
+        bool declared = true;
+        try {
             node.pass->declare(declaration);
         } catch (const Error& error) {
-            errors_.add("pass '" + node.id() + "': " + error.what());
+            tell(pass, "pass '" + node.id() + "': " + error.what());
+            declared = false;
         }
+        incomplete_ = incomplete_ || !declared;
         pass.uses = declaration.slot_uses();
         pass.programs = declaration.programs();
+        pass.counters = declaration.counters();
         pass.repeat_from = declaration.repeat_from;
         pass.repeat_to = declaration.repeat_to;
         for (SlotUse& use : pass.uses) {
@@ -99,11 +110,11 @@ class Planner {
             std::vector<std::string> names;
             for (const SlotUse& use : pass.uses)
                 names.push_back(use.slot);
-            if (!broken(node))
-                errors_.add(fmt::format("pass '{}' has no slot '{}'{}", node.id(), slot, did_you_mean(slot, names)));
+            if (declared && !broken(node))
+                tell(pass, fmt::format("pass '{}' has no slot '{}'{}", node.id(), slot, did_you_mean(slot, names)));
         }
         for (const ResourceDeclaration& made : declaration.resources())
-            take_resource(node, made);
+            take_resource(pass, made);
         passes_.push_back(std::move(pass));
     }
 
@@ -112,7 +123,8 @@ class Planner {
         return std::any_of(node.programs.begin(), node.programs.end(), [](auto& p) { return !p->errors().empty(); });
     }
 
-    void take_resource(const PassNode& node, ResourceDeclaration made) {
+    void take_resource(Declared& pass, ResourceDeclaration made) {
+        const PassNode& node = *pass.node;
         bool rebound = node.entry.bind.contains(made.name);
         made.name = target_of(node, made.name).resource;
         made.declared_by = node.id();
@@ -137,46 +149,8 @@ class Planner {
             if (given("neutral")) merged.neutral = known->neutral;
             *known = merged;
         } else if (!rebound && known->declared_by != node.id()) {
-            errors_.add(fmt::format("passes '{}' and '{}' both make '{}'; bind one of them to another name",
-                                    known->declared_by, node.id(), made.name));
-        }
-    }
-
-    // --- checking --------------------------------------------------------------------------------------------------
-    bool has_writer(const std::string& resource) const {
-        for (const Declared& pass : passes_) {
-            for (size_t i = 0; i < pass.uses.size(); ++i) {
-                if (pass.uses[i].writes && pass.targets[i].resource == resource) return true;
-            }
-        }
-        return false;
-    }
-
-    void check_sources() {
-        std::vector<std::string> names;
-        for (const ResourceDeclaration& resource : resources_)
-            names.push_back(resource.name);
-        for (const Declared& pass : passes_) {
-            for (size_t i = 0; i < pass.uses.size(); ++i) {
-                const SlotUse& use = pass.uses[i];
-                const std::string& target = pass.targets[i].resource;
-                if (is_builtin(use.slot) || use.optional) continue;
-                std::string slot =
-                    use.slot == target ? "'" + target + "'" : fmt::format("'{}' (slot {})", target, use.slot);
-                if (!find(target)) {
-                    errors_.add(fmt::format("pass '{}' ({}) {} {}, which nothing declares{}", pass.node->id(),
-                                            use.where, use.writes ? "writes" : "reads", slot,
-                                            did_you_mean(target, names)));
-                } else if (use.reads && !use.writes && !pass.targets[i].previous && !has_writer(target)) {
-                    errors_.add(
-                        fmt::format("pass '{}' ({}) reads {}, which nothing writes", pass.node->id(), use.where, slot));
-                } else if (bool buffer = find(target)->kind == ResourceKind::buffer;
-                           buffer != (use.usage == Usage::storage || use.usage == Usage::indirect)) {
-                    errors_.add(fmt::format("pass '{}' ({}) uses {} as a {}, but it is a {}", pass.node->id(),
-                                            use.where, slot, buffer ? "texture" : "buffer",
-                                            to_string(find(target)->kind)));
-                }
-            }
+            tell(pass, fmt::format("passes '{}' and '{}' both make '{}'; bind one of them to another name",
+                                   known->declared_by, node.id(), made.name));
         }
     }
 
@@ -204,7 +178,7 @@ class Planner {
         for (size_t i = 0; i < pass.uses.size(); ++i) {
             const SlotUse& use = pass.uses[i];
             if (!use.reads || use.writes || is_builtin(use.slot) || pass.targets[i].previous) continue;
-            if (use.optional && !has_writer(pass.targets[i].resource)) continue;
+            if (use.optional && !has_writer(passes_, pass.targets[i].resource)) continue;
             if (!all_writers_declined(pass.targets[i].resource)) return false;
             any = true;
         }
@@ -246,65 +220,6 @@ class Planner {
             if (!pass.declined.empty()) plan_.declined.push_back({pass.node->id(), pass.declined});
     }
 
-    // --- ordering --------------------------------------------------------------------------------------------------
-    /// A reader comes after every writer listed before it, or, when none is, after all writers; writers keep their
-    /// order.
-    std::vector<int> sort() {
-        int n = int(passes_.size());
-        std::vector<std::set<int>> after(n); // after[i]: passes that must come before i
-        for (const ResourceDeclaration& resource : resources_) {
-            std::vector<int> writers, readers;
-            for (int p = 0; p < n; ++p) {
-                if (!passes_[p].declined.empty()) continue;
-                bool writes = false, reads = false;
-                for (size_t i = 0; i < passes_[p].uses.size(); ++i) {
-                    if (passes_[p].targets[i].resource != resource.name) continue;
-                    writes = writes || passes_[p].uses[i].writes;
-                    reads = reads || (passes_[p].uses[i].reads && !passes_[p].targets[i].previous);
-                }
-                if (writes)
-                    writers.push_back(p);
-                else if (reads)
-                    readers.push_back(p);
-            }
-            for (size_t i = 1; i < writers.size(); ++i)
-                after[writers[i]].insert(writers[i - 1]);
-            for (int reader : readers) {
-                bool any_before = std::any_of(writers.begin(), writers.end(), [&](int w) { return w < reader; });
-                for (int writer : writers) {
-                    if (writer < reader || !any_before)
-                        after[reader].insert(writer);
-                    else
-                        after[writer].insert(reader);
-                }
-            }
-        }
-        std::vector<int> order;
-        std::vector<bool> done(n, false);
-        size_t wanted =
-            size_t(std::count_if(passes_.begin(), passes_.end(), [](auto& p) { return p.declined.empty(); }));
-        while (order.size() < wanted) {
-            int next = -1;
-            for (int p = 0; p < n && next < 0; ++p) {
-                bool ready = !done[p] && passes_[p].declined.empty() &&
-                             std::all_of(after[p].begin(), after[p].end(), [&](int before) { return done[before]; });
-                if (ready) next = p;
-            }
-            if (next < 0) {
-                std::vector<std::string> names;
-                for (int p = 0; p < n; ++p) {
-                    if (!done[p] && passes_[p].declined.empty()) names.push_back(passes_[p].node->id());
-                }
-                errors_.add("these passes wait for each other in a circle: " + join(names, ", ") +
-                            " (read last frame's copy with previous(name) to break it)");
-                errors_.throw_if_any("graph '" + model_.file().name + "'");
-            }
-            done[next] = true;
-            order.push_back(next);
-        }
-        return order;
-    }
-
     // --- sizes -----------------------------------------------------------------------------------------------------
     std::optional<double> fact(const std::string& name) const {
         auto found = scene_fact(facts_, name);
@@ -319,11 +234,14 @@ class Planner {
             return double(facts_.spot_lights + facts_.directional_lights + 6 * facts_.point_lights);
         if (auto found = model_.number(name)) return found;
         size_t last = name.rfind('.');
-        if (last == std::string::npos) return std::nullopt;
-        std::string resource = name.substr(0, last), side = name.substr(last + 1);
-        if (!find(resource)) return std::nullopt;
+        std::string resource = name.substr(0, std::min(last, name.size()));
+        if (last == std::string::npos || !find(resource)) {
+            doubtful_ = doubtful_ || model_.file().may_lack(name);
+            return std::nullopt;
+        }
         const PlanResource& sized = size_of(resource);
-        return side_of(sized, side);
+        doubtful_ = doubtful_ || unsized_.contains(resource);
+        return side_of(sized, name.substr(last + 1));
     }
 
     const PlanResource& size_of(const std::string& name) {
@@ -333,6 +251,7 @@ class Planner {
         out.declaration = declaration;
         if (!sizing_.insert(name).second) throw Error("the size of '" + name + "' depends on itself");
         NameLookup lookup = [&](const std::string& n) { return number(n); };
+        bool outer_doubtful = std::exchange(doubtful_, false);
         try {
             if (declaration.kind == ResourceKind::buffer) {
                 out.count = uint64_t(evaluate_integer(declaration.count, lookup, 0));
@@ -351,8 +270,13 @@ class Planner {
                 out.bytes = texture_bytes(desc);
             }
         } catch (const Error& error) {
-            errors_.add(fmt::format("resource '{}' (declared by {}): {}", name, declaration.declared_by, error.what()));
+            if (!doubtful_)
+                errors_.add(
+                    fmt::format("resource '{}' (declared by {}): {}", name, declaration.declared_by, error.what()));
+            doubtful_ = true;
         }
+        if (doubtful_) unsized_.insert(name);
+        doubtful_ = outer_doubtful;
         sizing_.erase(name);
         return sized_[name] = out;
     }
@@ -361,6 +285,7 @@ class Planner {
         const RepeatEntry& repeat = pass.node->entry.repeat;
         if (repeat.over.empty()) return;
         NameLookup lookup = [&](const std::string& n) { return number(n); };
+        doubtful_ = false;
         try {
             pass.repeat_from = evaluate_integer(repeat.from, lookup, 0);
             if (repeat.over == "count")
@@ -369,13 +294,15 @@ class Planner {
                 pass.repeat_to = int(facts_.lights());
             else if (repeat.over == "views")
                 pass.repeat_to = int(*number("shadow_views"));
-            else if (!find(repeat.of))
+            else if (!find(repeat.of)) {
+                doubtful_ = incomplete_;
                 throw Error("repeats over '" + repeat.of + "', which nothing declares");
-            else
+            } else
                 pass.repeat_to =
                     repeat.over == "mips" ? size_of(repeat.of).texture.mips : size_of(repeat.of).texture.size.z;
         } catch (const Error& error) {
-            errors_.add("pass '" + pass.node->id() + "': " + error.what());
+            if (!doubtful_) tell(pass, "pass '" + pass.node->id() + "': " + error.what());
+            pass.faulty = true;
         }
     }
 
@@ -427,6 +354,11 @@ class Planner {
                 }
                 pass.slots.push_back(std::move(slot));
             }
+            for (const CounterDeclaration& counter : declared.counters) {
+                auto found = index.find(counter.buffer);
+                if (found != index.end())
+                    pass.counters.push_back({counter.label, found->second, counter.element, counter.overflow});
+            }
             plan_.passes.push_back(std::move(pass));
         }
     }
@@ -434,17 +366,27 @@ class Planner {
     const GraphModel& model_;
     const SceneFacts& facts_;
     Plan plan_;
-    ErrorList errors_;
+    ErrorList& errors_;
     std::vector<ResourceDeclaration> resources_;
     std::vector<Declared> passes_;
     std::map<std::string, PlanResource> sized_;
     std::set<std::string> sizing_;
+    bool incomplete_;               ///< there may be more resources than these
+    std::set<std::string> unsized_; ///< resources whose size has an error, or uses one that has
+    bool doubtful_ = false;         ///< the expression at hand names what is not known because of another error
 };
 
 } // namespace
 
+Plan make_plan(const GraphModel& model, const SceneFacts& facts, glm::ivec2 size, ErrorList& errors) {
+    return Planner(model, facts, size, errors).run();
+}
+
 Plan GraphModel::plan(const SceneFacts& facts, glm::ivec2 size) const {
-    return Planner(*this, facts, size).run();
+    ErrorList errors;
+    Plan plan = make_plan(*this, facts, size, errors);
+    errors.throw_if_any("graph '" + file_.name + "'");
+    return plan;
 }
 
 } // namespace bounce

@@ -2,6 +2,7 @@
 // The plan of one frame: which passes run in which order, what each slot is bound to, sizes, barriers, and which passes
 // declined and why. Made without OpenGL, so `bounce graph` can print it anywhere.
 
+#include "core/error.h"
 #include "graph/graph_file.h"
 #include "graph/pass.h"
 
@@ -32,6 +33,13 @@ struct PlanSlot {
     glm::ivec2 neutral_size{1}; ///< of what the neutral value stands for
 };
 
+struct PlanCounter {
+    std::string label;
+    int resource = -1; ///< index into Plan::resources: a buffer of 4-byte integers
+    uint64_t element = 0;
+    bool overflow = false;
+};
+
 struct PlanPass {
     int node = -1; ///< index into GraphModel::nodes
     std::string id;
@@ -40,7 +48,8 @@ struct PlanPass {
     int repeat_from = 0, repeat_to = 1;
     GLbitfield barriers = 0;      ///< before the first step
     GLbitfield step_barriers = 0; ///< between steps
-    std::vector<int> clears;      ///< resources cleared before it, because it writes them first
+    std::vector<PlanCounter> counters;
+    std::vector<int> clears; ///< resources cleared before it, because it writes them first
     const PlanSlot* find(const std::string& slot) const;
     bool runs(const std::string& program) const;
 };
@@ -71,9 +80,12 @@ std::optional<double> scene_fact(const SceneFacts& facts, const std::string& nam
 void place_barriers(Plan& plan);
 
 class GraphModel;
+/// Plans a frame; collects all that is wrong, as far as one error does not follow from another. The plan is to be used
+/// only when there is none.
+Plan make_plan(const GraphModel& model, const SceneFacts& facts, glm::ivec2 size, ErrorList& errors);
 /// What would otherwise only fail when a frame runs: dispatch sizes, bound mips and layers, samplers and images of
-/// another kind than their resource. Throws Error with all of it.
-void check_plan(const GraphModel& model, const SceneFacts& facts, const Plan& plan);
+/// another kind than their resource.
+void check_plan(const GraphModel& model, const SceneFacts& facts, const Plan& plan, ErrorList& errors);
 /// Passes in order, who reads and writes what, sizes in bytes, barriers, declined passes with reasons.
 std::string plan_text(const GraphModel& model, const Plan& plan);
 /// The same as a Graphviz digraph.

@@ -12,22 +12,23 @@ namespace {
 
 class PlanChecker {
   public:
-    PlanChecker(const GraphModel& model, const SceneFacts& facts, const Plan& plan)
-        : model_(model), facts_(facts), plan_(plan) {}
+    PlanChecker(const GraphModel& model, const SceneFacts& facts, const Plan& plan, ErrorList& errors)
+        : model_(model), facts_(facts), plan_(plan), errors_(errors) {}
 
     void run() {
         for (const PlanPass& pass : plan_.passes) {
             const PassNode& node = *model_.nodes()[size_t(pass.node)];
             for (const PlanSlot& slot : pass.slots)
                 check_bind(pass, slot);
-            for (const auto& program : node.programs)
+            for (const auto& program : node.programs) {
+                if (!pass.runs(program->name())) continue;
                 for (const ShaderSlot& slot : program->slots())
                     check_kind(pass, slot);
+            }
             bool readable =
                 std::all_of(node.programs.begin(), node.programs.end(), [](auto& p) { return p->errors().empty(); });
             if (node.entry.type == "compute" && readable) check_dispatch(node.entry.dispatch, pass);
         }
-        errors_.throw_if_any("graph '" + model_.file().name + "'");
     }
 
   private:
@@ -53,17 +54,20 @@ class PlanChecker {
     std::optional<int> evaluate_steps(const PlanPass& pass, const std::string& what, const std::string& expression,
                                       bool iteration_only) {
         std::optional<int> greatest;
+        bool unjudged = false;
         for (int step : {pass.repeat_from, pass.repeat_to - 1}) {
             if (step < pass.repeat_from) continue; // no steps at all
             try {
                 auto lookup = [&](const std::string& name) -> std::optional<double> {
                     if (iteration_only && name != "iteration") return std::nullopt;
-                    return number(name, step);
+                    auto value = number(name, step);
+                    unjudged = unjudged || (!value && model_.file().may_lack(name));
+                    return value;
                 };
                 greatest = std::max(greatest.value_or(0), evaluate_integer(expression, lookup, 0));
             } catch (const Error& failure) {
                 std::string at = pass.repeat_to - pass.repeat_from > 1 ? fmt::format(" in step {}", step) : "";
-                error(pass, fmt::format(": {}{}: {}", what, at, failure.what()));
+                if (!unjudged) error(pass, fmt::format(": {}{}: {}", what, at, failure.what()));
                 return std::nullopt;
             }
         }
@@ -133,7 +137,7 @@ class PlanChecker {
             slot_found =
                 slot_found || (texture && slot.resource >= 0 && (dispatch.resource.empty() ? slot.use.writes : named));
         }
-        if (slot_found) return;
+        if (slot_found || model_.file().incomplete) return;
         if (dispatch.resource.empty()) {
             error(pass, " has nothing to dispatch over: give \"dispatch\": [x, y, z] or the name of a texture");
             return;
@@ -150,13 +154,13 @@ class PlanChecker {
     const GraphModel& model_;
     const SceneFacts& facts_;
     const Plan& plan_;
-    ErrorList errors_;
+    ErrorList& errors_;
 };
 
 } // namespace
 
-void check_plan(const GraphModel& model, const SceneFacts& facts, const Plan& plan) {
-    PlanChecker(model, facts, plan).run();
+void check_plan(const GraphModel& model, const SceneFacts& facts, const Plan& plan, ErrorList& errors) {
+    PlanChecker(model, facts, plan, errors).run();
 }
 
 } // namespace bounce

@@ -44,6 +44,10 @@ class LrsmLayersPass : public Pass {
         int places = std::max(views, 1) * k_most_depth_layers * k_most_normal_layers;
         d.creates_buffer("lrsm.table", std::to_string(places), 4);
         d.creates_buffer("lrsm.summary", std::to_string(2 + std::max(views, 1)), 4);
+        d.counts("layers stored, of " + std::to_string(layers), "lrsm.summary", 0);
+        d.counts("layers without a place in the pool", "lrsm.summary", 1, true);
+        for (int view = 0; view < views; ++view)
+            d.counts("depth layers of view " + std::to_string(view), "lrsm.summary", 2 + uint64_t(view));
         if (adaptive_) {
             d.creates_buffer("lrsm.histogram", std::to_string(std::max(views, 1) * (256 + 64)), 4);
             d.uses("histogram");

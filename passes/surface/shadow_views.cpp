@@ -71,9 +71,11 @@ std::vector<ShadowView> shadow_views(const std::vector<Light>& lights, const Bou
         } else {
             static const glm::vec3 faces[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
             // Slightly wider than a quarter turn, so that filtering near an edge finds texels of the same face.
-            float half_angle = std::atan(1 + 4.0f / float(resolution));
+            float tangent = 1 + 4.0f / float(resolution);
             for (glm::vec3 face : faces) {
-                views.push_back(perspective(light.position, basis_along(face), half_angle, near_plane, resolution));
+                views.push_back(
+                    perspective(light.position, basis_along(face), std::atan(tangent), near_plane, resolution));
+                views.back().window = 1 / tangent;
             }
         }
     }

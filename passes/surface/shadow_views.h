@@ -18,7 +18,8 @@ struct ShadowView {
     glm::vec3 direction{0}; ///< unit, the way the view looks
     float range = 0;        ///< metres; 0: perspective
     float texel_size = 0;   ///< perspective: metres at a distance of one metre; orthographic: metres
-    float padding[3] = {};
+    float window = 1; ///< part of the map, 0 … window of its half width, that none of the light's other views shows
+    float padding[2] = {};
 };
 static_assert(sizeof(ShadowView) == 112);
 

@@ -36,9 +36,9 @@ class ProgramTest(unittest.TestCase):
     def environment(self):
         return dict(os.environ, BOUNCE_ROOT=str(self.root))
 
-    def run_program(self, *arguments, **options):
-        return subprocess.run([PROGRAM, *map(str, arguments)], env=self.environment(), cwd=self.out, capture_output=True,
-                              text=True, timeout=120, **options)
+    def run_program(self, *arguments, stdout_file=subprocess.PIPE, **options):
+        return subprocess.run([PROGRAM, *map(str, arguments)], env=self.environment(), cwd=self.out,
+                              stdout=stdout_file, stderr=subprocess.PIPE, text=True, timeout=120, **options)
 
     def start_program(self, *arguments):
         """Starts it and goes on; what it says goes to the file `said`."""

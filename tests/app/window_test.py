@@ -2,9 +2,12 @@
 
 import json
 import os
+import pathlib
 import re
 import shutil
+import struct
 import subprocess
+import tempfile
 import time
 import unittest
 
@@ -19,9 +22,10 @@ class Display:
     """An X server on a free display; only the process that was started here is ended."""
 
     def __init__(self):
+        self.memory = tempfile.TemporaryDirectory(prefix="bounce_screen_")
         read, write = os.pipe()
         self.process = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", f"{SIZE[0]}x{SIZE[1]}x24", "-nolisten", "tcp",
-                                         "-noreset"], pass_fds=[write], stderr=subprocess.DEVNULL)
+                                         "-noreset", "-fbdir", self.memory.name], pass_fds=[write], stderr=subprocess.DEVNULL)
         os.close(write)
         with os.fdopen(read) as pipe:
             self.name = ":" + pipe.readline().strip()
@@ -29,6 +33,15 @@ class Display:
     def close(self):
         self.process.terminate()
         self.process.wait(30)
+        self.memory.cleanup()
+
+    def pixels(self, x0, y0, x1, y1):
+        """Rows of pixels as the screen has them now."""
+        screen = (pathlib.Path(self.memory.name) / "Xvfb_screen0").read_bytes()  # an X window dump
+        header = struct.unpack(">25I", screen[:100])
+        start, row, size = header[0] + 12 * header[19], header[12], header[11] // 8
+        places = [[start + y * row + x * size for x in range(x0, x1)] for y in range(y0, y1)]
+        return [[screen[place:place + 3] for place in line] for line in places]
 
 
 class Window(ProgramTest):
@@ -94,18 +107,28 @@ class Window(ProgramTest):
         x0, y0, x1, y1 = self.wait(lambda state: widget in state["widgets"], f"the widget {widget}")["widgets"][widget]
         return round(x0 + share * (x1 - x0)), round((y0 + y1) / 2)
 
+    def move(self, x, y):
+        """A pointer that is at the place already moves nothing, so that no frame is drawn for it."""
+        place = subprocess.run(["xdotool", "getmouselocation"], env=self.environment(), capture_output=True, text=True, check=True, timeout=60)
+        if not place.stdout.startswith(f"x:{x} y:{y} "):
+            self.input("mousemove", x, y)
+
     def click(self, widget):
-        self.input("mousemove", *self.place(widget))
+        self.move(*self.place(widget))
         self.input("mousedown", 1)
-        subprocess.run(["xdotool", "mouseup", "1"], env=self.environment(), check=True, timeout=60)
+        self.input("mouseup", 1)
 
     def drag(self, widget, start, end, button=1):
         points = [self.place(widget, share) for share in (start, (start + end) / 2, end)]
-        self.input("mousemove", *points[0])
+        self.move(*points[0])
         self.input("mousedown", button)
-        self.input("mousemove", *points[1])
-        self.input("mousemove", *points[2])
+        self.move(*points[1])
+        self.move(*points[2])
         self.input("mouseup", button)
+
+    def type(self, widget, text):
+        self.click(widget)
+        subprocess.run(["xdotool", "type", "--delay", "50", text], env=self.environment(), check=True, timeout=60)
 
     def capture(self, key="F12"):
         """Presses the key; returns the file that was written."""
@@ -181,6 +204,72 @@ class Window(ProgramTest):
             state = self.wait(lambda state: not state["problems"], "the error to go")
             self.wait(lambda later: later["rendered"] > state["rendered"] + 3, "frames that go on")
             self.assertNotIn("status.problems", self.state()["widgets"])
+
+    def test_files_are_opened_and_presets_saved(self):
+        self.open(self.shot, *SMALL, "--size", "%dx%d" % PICTURE)
+        self.type("scene.path", "/nowhere/x.gltf")
+        self.input("key", "Return")
+        state = self.wait(lambda state: state["notice_is_error"], "the refusal of a file that is not there")
+        self.assertIn("/nowhere/x.gltf", state["notice"])
+        self.assertEqual(state["shot"], str(self.shot))
+        self.click("scene.shot")
+        self.click("scene.shot.cornell_lamp")
+        self.wait(lambda state: state["shot"] == "cornell_lamp", "the chosen shot")
+        self.click("scene.shot")
+        self.click("scene.shot.cornell")
+        self.wait(lambda state: state["shot"] == "cornell", "the chosen shot")
+
+        # A light is turned at, and taken back; from press to release is one step.
+        self.drag("light.0.outer_cone", 0.5, 0.3)
+        self.wait(lambda state: state["undo"].endswith("cone"), "the edit of the light")
+        self.input("key", "ctrl+z")
+        self.wait(lambda state: not state["undo"], "undo")
+
+        self.drag("tonemap.exposure", 0.5, 0.6)
+        value = float(self.wait(lambda state: "tonemap.exposure" in state["parameters"], "the value")["parameters"]["tonemap.exposure"])
+        self.click("tab.Capture")
+        self.type("capture.preset", "bright")
+        self.click("capture.save_preset")
+        self.wait(lambda state: state["notice"].startswith("saved"), "the preset")
+        preset = json.loads((self.root / "assets/graphs/bright.json").read_text())
+        params = {entry.get("id", entry["type"]): entry.get("params", {}) for entry in preset["passes"]}
+        self.assertAlmostEqual(params["tonemap"]["exposure"], value, 5)
+        self.click("capture.save_preset")
+        self.wait(lambda state: state["notice_is_error"] and "overwrite" in state["notice"], "the refusal to overwrite")
+        self.assert_good(self.run_program("render", self.shot, "--graph", "bright", "-q", "-o", "bright.png"))
+
+    def test_the_picture_against_the_reference(self):
+        self.open(self.shot, *SMALL, "--size", "%dx%d" % PICTURE, "--set", "direct.shadows=false")
+        self.click("tab.Compare")
+        self.click("compare.start")
+        state = self.wait(lambda state: state["comparison"]["samples"] >= 8 and not state["comparison"]["running"], "the reference")
+        unshadowed = state["comparison"]["relative_rmse"]
+        self.assertGreater(unshadowed, 0.1)  # it lacks the shadows
+
+        # The border is dragged: what it passes turns from the reference into the picture, and nothing else changes.
+        self.click("compare.view.split")
+        self.drag("compare.split", 0.5, 0.3)
+        x0, y0, x1, y1 = map(round, self.state()["widgets"]["viewport"])
+        left = self.state()["comparison"]["split"]
+        before = self.display.pixels(x0, y0, x1, y1)
+        self.drag("compare.split", 0.3, 0.7)
+        right = self.wait(lambda state: state["comparison"]["split"] > left + 0.2, "the border at another place")["comparison"]["split"]
+        after = self.display.pixels(x0, y0, x1, y1)
+        changed = [x / (x1 - x0) for row, later in zip(before, after) for x in range(x1 - x0) if row[x] != later[x]]
+        self.assertGreater(len(changed), 100)
+        one = 2 / PICTURE[0]  # texels are smoothed on the screen
+        self.assertGreater(min(changed), left - one)
+        self.assertLess(max(changed), right + one)
+
+        # The figures follow an edit, and a kept point stays.
+        self.click("compare.keep")
+        self.wait(lambda state: state["comparison"]["points"] == 1, "the kept point")
+        self.click("direct.shadows")
+        self.wait(lambda state: state["comparison"]["relative_rmse"] < 0.5 * unshadowed, "less error with shadows")
+        for view in ("flicker", "error", "reference", "off"):
+            self.click("compare.view." + view)
+        self.assertEqual(self.state()["comparison"]["view"], 0)
+        self.assertFalse(self.state()["notice_is_error"], self.state()["notice"])
 
     def test_what_is_kept_between_runs(self):
         self.open(self.shot, *SMALL)

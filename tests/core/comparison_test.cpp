@@ -45,7 +45,7 @@ TEST(Comparison, PairsPartsByName) {
     test.layers.erase("out.emitted");
     test.layers["out.display"] = flat(0);
     test.layers["out.direct"] = flat(2.2f);
-    const Comparison comparison = compare_layers(test, reference(), {});
+    const LayerComparison comparison = compare_layers(test, reference(), {});
     std::vector<std::string> names;
     for (const auto& part : comparison.parts)
         names.push_back(part.part);
@@ -67,7 +67,7 @@ TEST(Comparison, ComparesSumsOfParts) {
     test.layers["out.indirect_diffuse"] = flat(1.5f);
     ComparisonOptions options;
     options.parts = {"out.emitted+out.indirect_diffuse"};
-    const Comparison comparison = compare_layers(test, reference(), options);
+    const LayerComparison comparison = compare_layers(test, reference(), options);
     EXPECT_NEAR(comparison.parts[0].figures.relative_rmse, 0, 1e-7);
 }
 
@@ -77,7 +77,7 @@ TEST(Comparison, TellsSurfacesApart) {
         for (int x = 6; x < 12; ++x)
             std::fill_n(test.layers["out.direct"].at(x, y), 3, 3.0f);
     }
-    const Comparison comparison = compare_layers(test, reference(), {});
+    const LayerComparison comparison = compare_layers(test, reference(), {});
     const auto surfaces = compare_surfaces(test, reference(), "out.direct", comparison.mask);
     ASSERT_EQ(surfaces.size(), 2u);
     for (const auto& surface : surfaces) {

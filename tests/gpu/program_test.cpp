@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 using namespace bounce;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -92,6 +93,17 @@ TEST_F(Programs, StagesThatDoNotGoTogether) {
     ASSERT_FALSE(program.errors().empty());
     EXPECT_THAT(program.errors()[0].message, HasSubstr("does not link"));
     EXPECT_THAT(program.errors()[0].message, HasSubstr("colour"));
+    EXPECT_THAT(program.errors()[0].file.string(), testing::AnyOf("x.vert", "x.frag"));
+}
+
+TEST_F(Programs, AFunctionThatNothingDefines) {
+    folder.write("x.comp", "layout(local_size_x = 1) in;\nvoid nowhere();\nvoid main() { nowhere(); }\n");
+    Program program("x", {"x.comp"}, folder.path());
+    program.scan({}, {});
+    EXPECT_FALSE(program.build({}));
+    ASSERT_EQ(program.errors().size(), 1u);
+    EXPECT_THAT(program.errors()[0].text(),
+                AllOf(HasSubstr("x.comp"), HasSubstr("does not link"), HasSubstr("nowhere")));
 }
 
 TEST_F(Programs, WhatCannotBeReadForTheMomentKeepsItsSlotsAndParameters) {

@@ -254,6 +254,37 @@ TEST_F(Source, LogsOfAllDriversAreTranslated) {
     EXPECT_EQ(translate("0:999(1): error: beyond the end")[0].line, 0);
 }
 
+TEST_F(Source, LinkLogsAreTranslatedToTheStageThatTheyMean) {
+    folder.write("main.vert", "out vec3 tint;\nvoid main() { tint = shade(); }\n");
+    folder.write("main.frag", "#include \"lib.glsl\"\nin vec4 tint;\n");
+    folder.write("lib.glsl", "vec3 shade();\n");
+    std::vector<ShaderSource> stages = {expand("main.vert"), expand("main.frag")};
+    auto translate = [&](const std::string& log) { return translate_link_log(log, stages, folder.path()); };
+
+    // NVIDIA. Flat: #version, shade, tint.
+    std::vector<ShaderError> errors =
+        translate("Fragment info\n-------------\n0(2) : error C3001: no function \"shade\"\n"
+                  "(0) : error C5041: cannot bind\nVertex info\n-----------\n"
+                  "0(3) : error C3001: no such thing\n");
+    ASSERT_EQ(errors.size(), 3u);
+    EXPECT_EQ(errors[0].text(), "lib.glsl:1: does not link: error C3001: no function \"shade\"\n    vec3 shade();");
+    EXPECT_EQ(errors[1].text(), "main.frag: does not link: (0) : error C5041: cannot bind");
+    EXPECT_EQ(errors[2].file, "main.vert");
+    EXPECT_EQ(errors[2].line, 2);
+
+    // Mesa names stages, and gives no lines.
+    errors =
+        translate("error: fragment shader input `tint' does not match vertex shader output\nwarning: never mind\n");
+    ASSERT_EQ(errors.size(), 1u);
+    EXPECT_EQ(errors[0].file, "main.frag");
+    EXPECT_EQ(errors[0].line, 0);
+
+    // A line of nobody knows which stage says nothing.
+    errors = translate("ERROR: 0:2: too many varyings");
+    EXPECT_EQ(errors.at(0).text(), "main.vert: does not link: too many varyings");
+    EXPECT_THAT(translate("").at(0).text(), HasSubstr("main.vert: does not link"));
+}
+
 TEST_F(Source, StagesAreKnownByExtension) {
     EXPECT_EQ(stage_of("x/y.vert"), ShaderStage::vertex);
     EXPECT_EQ(stage_of("y.geom"), ShaderStage::geometry);

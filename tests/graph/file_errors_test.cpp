@@ -82,6 +82,49 @@ TEST_F(GraphFileErrors, ParametersOfAllPassesAreCheckedTogether) {
     EXPECT_THAT(text, HasSubstr("pass 'y': '3' is out of range for parameter 'width': it takes a number [0, 2]"));
 }
 
+/// Of the text, of parameters and of the plan: a person mends them in one go. What only follows from another error is
+/// not told.
+TEST_F(GraphFileErrors, ThoseOfAllKindsAreReportedTogether) {
+    shader("fill.comp", "uniform float gain = 1.0; //! [0, 2] gain\nlayout(FORMAT_a_a) writeonly uniform image2D a_a;");
+    shader("reads.comp", "uniform sampler2D a_a;\nlayout(FORMAT_b_b) writeonly uniform image2D b_b;");
+    shader("one.comp", "uniform sampler2D d_d;\nlayout(FORMAT_c_c) writeonly uniform image2D c_c;");
+    shader("two.comp", "uniform sampler2D c_c;\nlayout(FORMAT_d_d) writeonly uniform image2D d_d;");
+    std::string text = error_of([&] {
+        model(R"("resources": {"a.a": {}, "b.b": {"size": ["wdth", 1]}, "c.c": {}, "d.d": {"size": ["b.b.width", 1]},
+                               "e.e": {"format": "rgba16g"}},
+                 "passes": [{"id":"fill","type":"compute","shader":"fill.comp","params":{"gian": 1}},
+                            {"id":"reads","type":"compute","shader":"reads.comp","bind":{"a.b":"a.a"}},
+                            {"id":"again","type":"compute","shader":"fill.comp","dispatch":["widht", 1]},
+                            {"id":"late","type":"compute","shader":"reads.comp","bind":{"a.a":"e.e"}},
+                            {"id":"one","type":"compute","shader":"one.comp"},
+                            {"id":"two","type":"compute","shader":"two.comp"}])");
+    });
+    EXPECT_THAT(text, HasSubstr(": 6 errors\n"));
+    EXPECT_THAT(text, HasSubstr("there is no format 'rgba16g'"));
+    EXPECT_THAT(text, HasSubstr("pass 'fill': there is no parameter 'gian' (did you mean 'gain'?)"));
+    EXPECT_THAT(text, HasSubstr("pass 'reads' has no slot 'a.b' (did you mean 'a.a'?)"));
+    EXPECT_THAT(text, HasSubstr("resource 'b.b' (declared by graph file): 'wdth' in 'wdth' is no name"));
+    EXPECT_THAT(text, HasSubstr("pass 'again': 'dispatch': 'widht' in 'widht' is no name that is known here"));
+    EXPECT_THAT(text, HasSubstr("these passes wait for each other in a circle: one, two"));
+}
+
+/// A pass that cannot be read may have made what others read: that they lack it is not known.
+TEST_F(GraphFileErrors, WhatFollowsFromAnotherErrorIsNotTold) {
+    shader("fill.comp", "layout(FORMAT_a_a) writeonly uniform image2D a_a;");
+    shader("reads.comp", "uniform sampler2D a_a;\nuniform float gain = 1.0; //! [0, 2] gain\n"
+                         "layout(FORMAT_b_b) writeonly uniform image2D b_b;");
+    std::string text = error_of([&] {
+        model(R"("parameters": {"scale": {"range": [1, 2]}},
+                 "resources": {"a.a": {}, "b.b": {"size": ["graph.scale * width", 1]}},
+                 "passes": [{"id":"fill","type":"compoot","shader":"fill.comp"},
+                            {"id":"reads","type":"compute","shader":"reads.comp","params":{"gain":"=graph.scale"},
+                             "dispatch": ["b.b.width", 1]}])");
+    });
+    EXPECT_THAT(text, AllOf(HasSubstr("'default' is missing"), HasSubstr("no pass type 'compoot'"),
+                            HasSubstr("only passes of type compute take a 'shader'")));
+    EXPECT_THAT(text, HasSubstr(": 3 errors\n"));
+}
+
 TEST_F(GraphFileErrors, SlotsWithoutSourceAreToldTogetherWithWhatThereIs) {
     shader("x.comp", "uniform sampler2D blur_sorce;\nlayout(FORMAT_made_here) writeonly uniform image2D made_here;\n"
                      "layout(std430) buffer blur_source { float values[]; };");

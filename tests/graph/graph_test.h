@@ -41,7 +41,7 @@ class PlanTest : public testing::Test {
     void shader(const std::string& name, const std::string& slots) const {
         root.write("glsl/" + name, "layout(local_size_x = 8) in;\n" + slots + "\nvoid main() {}\n");
     }
-    GraphModel model(const std::string& members) const { return GraphModel(load_graph_file(graph_file(members))); }
+    GraphModel model(const std::string& members) const { return GraphModel(read_graph_file(graph_file(members))); }
     Plan plan(const std::string& members, const SceneFacts& facts = {}, glm::ivec2 size = {640, 360}) const {
         return model(members).plan(facts, size);
     }

@@ -1,5 +1,7 @@
 """The top level stays as it is, and files stay short: a file holds one idea."""
 
+import collections
+import re
 import unittest
 
 import tree
@@ -23,6 +25,18 @@ class Layout(unittest.TestCase):
                 if lines > LONGEST:
                     long.append(f"{path}: {lines} lines, more than {LONGEST}: is it one idea?")
         self.assertFalse(long, "\n" + "\n".join(long))
+
+    def test_a_type_is_defined_in_one_header(self):
+        """Two types of one name in one program break the one-definition rule: the linker keeps one destructor for both, and says nothing."""
+        places = collections.defaultdict(set)
+        for path in tree.files():
+            if path.parts[0] in ("app", "passes") and path.suffix == ".h":
+                text = (tree.ROOT / path).read_text()
+                for name in re.findall(r"^(?:class|struct|enum class) (\w+)(?: final)?(?: : [^;{]*)? \{", text, re.MULTILINE):
+                    places[name].add(str(path))
+        self.assertIn("GraphModel", places)
+        twice = [f"{name}: {', '.join(sorted(found))}" for name, found in places.items() if len(found) > 1]
+        self.assertFalse(twice, "\n" + "\n".join(twice))
 
 
 if __name__ == "__main__":

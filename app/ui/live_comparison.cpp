@@ -1,4 +1,4 @@
-#include "app/ui/comparison.h"
+#include "app/ui/live_comparison.h"
 
 #include "app/capture.h"
 #include "app/experiments/parts.h"
@@ -12,12 +12,12 @@
 
 namespace bounce {
 
-static bool models_everything(const Comparison& comparison, const Session& session) {
+static bool models_everything(const LiveComparison& comparison, const Session& session) {
     return comparison.full_transport || session.graph().model().file().transport.bounces < 0;
 }
 
 /// What the reference depends on, as far as the window can change it.
-std::string Comparison::key_of(const Session& session) const {
+std::string LiveComparison::key_of(const Session& session) const {
     const Transport& transport = session.graph().model().file().transport;
     return fmt::format("{} {} {} {}x{} {} {} {}", session.options().shot, session.edits(),
                        camera_json(session.camera()), session.size().x, session.size().y, session.frame(),
@@ -25,11 +25,11 @@ std::string Comparison::key_of(const Session& session) const {
                        !full_transport && transport.diffuse_only);
 }
 
-bool Comparison::stale(const Session& session) const {
+bool LiveComparison::stale(const Session& session) const {
     return key_of(session) != reference_key_;
 }
 
-void Comparison::start(const Session& session) {
+void LiveComparison::start(const Session& session) {
     stop();
     auto shot = std::make_shared<Shot>(session.shot());
     shot->camera = session.camera();
@@ -78,23 +78,23 @@ void Comparison::start(const Session& session) {
     });
 }
 
-void Comparison::stop() {
+void LiveComparison::stop() {
     if (!thread_.joinable()) return;
     thread_.request_stop();
     thread_.join();
 }
 
-ReferenceProgress Comparison::progress() const {
+ReferenceProgress LiveComparison::progress() const {
     std::lock_guard lock(mutex_);
     return progress_;
 }
 
-std::string Comparison::problem() const {
+std::string LiveComparison::problem() const {
     std::lock_guard lock(mutex_);
     return problem_;
 }
 
-bool Comparison::update(const Session& session) {
+bool LiveComparison::update(const Session& session) {
     bool changed = false;
     {
         std::lock_guard lock(mutex_);
@@ -126,26 +126,28 @@ bool Comparison::update(const Session& session) {
     return true;
 }
 
-double Comparison::measure_flip() {
+double LiveComparison::measure_flip() {
     if (own_.empty() || truth_.empty()) return 0;
     float exposure = automatic_exposure(truth_, mask_);
     return flip_mean(flip(display_values(own_, exposure), display_values(truth_, exposure)), mask_);
 }
 
-ComparePoint Comparison::live(const Session& session) const {
+ComparePoint LiveComparison::live(const Session& session) const {
     std::string label = session.options().graph;
     for (const auto& [name, value] : session.changed_parameters(ParameterOrigin::command_line))
         label += " " + name + "=" + value;
     return {label, session.graph().frame_ms(), figures_.relative_rmse};
 }
 
-void Comparison::release_gpu() {
+void LiveComparison::release_gpu() {
     picture_ = {};
     composed_.clear();
 }
 
-const GpuTexture* Comparison::picture(const Session& session, double seconds) {
-    if (view == CompareView::off || !has_reference() || stale(session) || own_.empty()) return nullptr;
+const GpuTexture* LiveComparison::picture(const Session& session, double seconds) {
+    if (view == CompareView::off) return nullptr;
+    update(session); // the panel may be hidden
+    if (!has_reference() || stale(session) || own_.empty()) return nullptr;
     bool second = view == CompareView::flicker && std::fmod(seconds, 1.0) >= 0.5;
     std::string wanted =
         fmt::format("{} {} {} {} {} {}", int(view), split, second, error_range, measured_frames_, samples_);
@@ -166,7 +168,7 @@ static void display_pixel(const float* radiance, float scale, bool aces_like, ui
     out[3] = 255;
 }
 
-void Comparison::compose(const Session& session, bool second_half) {
+void LiveComparison::compose(const Session& session, bool second_half) {
     glm::ivec2 size = session.size();
     float scale = 1;
     bool aces_like = false;

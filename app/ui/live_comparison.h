@@ -23,9 +23,9 @@ struct ComparePoint {
     double relative_rmse = 0;
 };
 
-class Comparison {
+class LiveComparison {
   public:
-    ~Comparison() { stop(); }
+    ~LiveComparison() { stop(); }
 
     // What a person chooses.
     CompareView view = CompareView::off;

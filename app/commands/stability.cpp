@@ -1,0 +1,48 @@
+// bounce stability: how steady a picture is while the lights or objects of a shot move in small steps.
+#include "app/experiments/stability.h"
+#include "app/commands/command.h"
+#include "app/commands/session_options.h"
+#include "app/hosts/headless.h"
+#include "core/error.h"
+
+#include <fmt/format.h>
+
+namespace bounce {
+
+namespace {
+struct StabilityArguments {
+    SessionArguments session;
+    std::string resource = "out.indirect_diffuse";
+    int frames = 24, device = -1;
+    float fps = 0;
+};
+
+int print_stability(const StabilityArguments& arguments) {
+    HeadlessContext context(arguments.device);
+    Session session(arguments.session.options());
+    if (arguments.fps > 0) session.shot().fps = arguments.fps;
+    StabilityFigures figures = measure_stability(session, arguments.resource, arguments.frames);
+    fmt::print("{} of {} through {}, {} frames: mean {:.5g}, change {:.3f} %, flicker {:.3f} %, 99th percentile {:.3f} "
+               "%\n",
+               arguments.resource, session.shot().name, session.graph().model().file().name, figures.frames,
+               figures.mean, 100 * figures.change, 100 * figures.flicker, 100 * figures.flicker_p99);
+    return 0;
+}
+} // namespace
+
+void add_stability_command(CLI::App& app, CommandFunction& chosen) {
+    auto* command = app.add_subcommand("stability", "flicker of a picture while a shot's lights or objects move");
+    auto a = std::make_shared<StabilityArguments>();
+    command->add_option("shot", a->session.shot, "a shot with something that moves")->required();
+    command->add_option("--graph", a->session.graph, "a graph: name or .json")->capture_default_str();
+    command->add_option("--set", a->session.sets, "a parameter: pass.name=value")->allow_extra_args(false);
+    command->add_option("--size", a->session.size, "WxH instead of the shot's");
+    command->add_option("--resource", a->resource, "which picture")->capture_default_str();
+    command->add_option("--frames", a->frames, "frames to render")->check(CLI::Range(3, 100000))->capture_default_str();
+    command->add_option("--fps", a->fps, "frames a second instead of the shot's: more make smaller steps")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--device", a->device, "which EGL device");
+    command->callback([a, &chosen] { chosen = [a] { return print_stability(*a); }; });
+}
+
+} // namespace bounce

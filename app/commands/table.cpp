@@ -1,0 +1,56 @@
+// bounce table: memory by structure and time by stage, in the form of a paper's tables and beside its figures.
+#include "app/commands/command.h"
+#include "app/commands/session_options.h"
+#include "app/experiments/cost_table.h"
+#include "app/hosts/headless.h"
+#include "core/error.h"
+#include "core/image.h"
+
+#include <fmt/format.h>
+
+namespace bounce {
+
+namespace {
+struct TableArguments {
+    std::string table, size, output;
+    int warm_up = 2, frames = 5, device = -1;
+};
+
+int print_table(const TableArguments& arguments) {
+    CostTableFile file = load_cost_table(arguments.table);
+    SessionArguments shared;
+    shared.size = arguments.size;
+    std::optional<glm::ivec2> size = shared.options().size;
+    HeadlessContext context(arguments.device);
+    std::vector<CostTableMeasured> measured;
+    for (const CostTableColumn& column : file.columns) {
+        fmt::print(stderr, "{} …\n", column.name);
+        measured.push_back(measure_column(file, column, size, arguments.warm_up, arguments.frames));
+    }
+    std::string text = cost_table_markdown(file, measured);
+    if (arguments.output.empty())
+        fmt::print("{}", text);
+    else
+        write_file_atomically(arguments.output, text);
+    return 0;
+}
+} // namespace
+
+void add_table_command(CLI::App& app, CommandFunction& chosen) {
+    auto* command =
+        app.add_subcommand("table", "memory by structure and time by stage, beside a paper's figures, as Markdown");
+    auto arguments = std::make_shared<TableArguments>();
+    command->add_option("table", arguments->table, "a table: name or .json")->required();
+    command->add_option("--size", arguments->size, "WxH instead of the shots' sizes");
+    command->add_option("--warmup", arguments->warm_up, "frames before measuring")
+        ->check(CLI::Range(0, 1000))
+        ->capture_default_str();
+    command->add_option("--frames", arguments->frames, "frames that are measured")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    command->add_option("-o,--output", arguments->output, "write to this file instead of the terminal");
+    command->add_option("--device", arguments->device, "EGL device to render on (see --list-devices)");
+    command->callback([arguments, &chosen] { chosen = [arguments] { return print_table(*arguments); }; });
+}
+
+} // namespace bounce

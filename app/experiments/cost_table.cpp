@@ -1,0 +1,207 @@
+#include "app/experiments/cost_table.h"
+
+#include "app/session.h"
+#include "app/timings.h"
+#include "core/error.h"
+#include "core/image.h"
+#include "core/paths.h"
+#include "core/text.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <glad/gl.h>
+#include <nlohmann/json.hpp>
+
+namespace bounce {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+std::string set_text(const ordered_json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+/// Tells about keys that are not in `known`.
+void check_keys(const ordered_json& object, const std::string& where, const std::vector<std::string>& known,
+                ErrorList& errors) {
+    for (const auto& [key, value] : object.items()) {
+        if (std::find(known.begin(), known.end(), key) == known.end())
+            errors.add(fmt::format("{}: there is no key '{}'{}", where, key, did_you_mean(key, known)));
+    }
+}
+
+std::string text_at(const ordered_json& object, const char* key, const std::string& where, ErrorList& errors,
+                    bool required) {
+    if (object.contains(key) && object[key].is_string()) return object[key].get<std::string>();
+    if (object.contains(key) || required) errors.add(fmt::format("{}: '{}' must be a text", where, key));
+    return {};
+}
+
+std::vector<CostTableRow> rows_of(const ordered_json& json, const char* table, const char* parts, ErrorList& errors) {
+    std::vector<CostTableRow> rows;
+    if (!json.contains(table)) return rows;
+    if (!json[table].is_array()) {
+        errors.add(fmt::format("'{}' must be a list of rows", table));
+        return rows;
+    }
+    for (const ordered_json& entry : json[table]) {
+        std::string where = fmt::format("{}[{}]", table, rows.size());
+        CostTableRow row;
+        if (!entry.is_object() || !entry.contains(parts) || !entry[parts].is_array()) {
+            errors.add(fmt::format("{}: a row is {{\"name\": …, \"{}\": […]}}", where, parts));
+            continue;
+        }
+        check_keys(entry, where, {"name", parts, "published"}, errors);
+        row.name = text_at(entry, "name", where, errors, true);
+        for (const ordered_json& part : entry[parts])
+            row.parts.push_back(set_text(part));
+        if (entry.contains("published") && entry["published"].is_object()) {
+            for (const auto& [column, value] : entry["published"].items()) {
+                if (value.is_number())
+                    row.published[column] = value.get<double>();
+                else
+                    errors.add(fmt::format("{}: the published figure of '{}' must be a number", where, column));
+            }
+        }
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+} // namespace
+
+CostTableFile load_cost_table(const std::string& name) {
+    std::filesystem::path path = name;
+    if (!std::filesystem::is_regular_file(path)) path = assets_folder() / "tables" / (name + ".json");
+    if (!std::filesystem::is_regular_file(path)) {
+        std::vector<std::string> names;
+        std::error_code ignored;
+        for (const auto& entry : std::filesystem::directory_iterator(assets_folder() / "tables", ignored))
+            names.push_back(entry.path().stem().string());
+        throw Error("there is no table '" + name + "'" + did_you_mean(name, names));
+    }
+    ordered_json json;
+    try {
+        json = ordered_json::parse(read_file(path), nullptr, true, true);
+    } catch (const ordered_json::parse_error& error) {
+        throw Error(path.string() + ": not JSON: " + error.what());
+    }
+    if (!json.is_object() || !json.contains("columns") || !json["columns"].is_array())
+        throw Error(path.string() +
+                    ": a table is an object {\"graph\": …, \"columns\": […], \"memory\": […], \"time\": […]}");
+    ErrorList errors;
+    CostTableFile file;
+    check_keys(json, "the table", {"about", "graph", "columns", "memory", "time", "published_by"}, errors);
+    file.about = text_at(json, "about", "the table", errors, false);
+    file.published_by = text_at(json, "published_by", "the table", errors, false);
+    std::string graph = text_at(json, "graph", "the table", errors, false);
+    for (const ordered_json& entry : json["columns"]) {
+        std::string where = fmt::format("columns[{}]", file.columns.size());
+        CostTableColumn column;
+        if (!entry.is_object()) {
+            errors.add(where + ": a column is {\"name\": …, \"shot\": …, \"set\": {…}}");
+            continue;
+        }
+        check_keys(entry, where, {"name", "shot", "graph", "set"}, errors);
+        column.name = text_at(entry, "name", where, errors, true);
+        column.shot = text_at(entry, "shot", where, errors, true);
+        column.graph = entry.contains("graph") ? text_at(entry, "graph", where, errors, true) : graph;
+        if (column.graph.empty()) errors.add(where + ": neither the column nor the table names a graph");
+        if (entry.contains("set") && entry["set"].is_object()) {
+            for (const auto& [parameter, value] : entry["set"].items())
+                column.sets.emplace_back(parameter, set_text(value));
+        }
+        file.columns.push_back(column);
+    }
+    file.memory = rows_of(json, "memory", "resources", errors);
+    file.time = rows_of(json, "time", "passes", errors);
+    errors.throw_if_any(path.string());
+    return file;
+}
+
+CostTableMeasured measure_column(const CostTableFile& file, const CostTableColumn& column,
+                                 std::optional<glm::ivec2> size, int warm_up, int frames) {
+    SessionOptions options;
+    options.shot = column.shot;
+    options.graph = column.graph;
+    options.sets = column.sets;
+    options.size = size;
+    Session session(options);
+    for (int frame = 0; frame < warm_up + frames; ++frame) {
+        if (frame > 0) session.advance();
+        if (frame == warm_up) session.graph().forget_timings();
+        session.render();
+    }
+    session.graph().finish_timings();
+    for (const GraphProblem& problem : session.graph().problems())
+        throw Error(problem.error.text());
+
+    CostTableMeasured measured;
+    measured.renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    const Plan& plan = session.graph().plan();
+    for (const CostTableRow& row : file.memory) {
+        std::optional<double> sum;
+        for (const std::string& name : row.parts) {
+            if (const PlanResource* resource = plan.find_resource(name))
+                sum = sum.value_or(0) + double(resource->total_bytes()) / 1e6;
+        }
+        measured.memory_mb.push_back(sum);
+        measured.total_mb += sum.value_or(0);
+    }
+    for (const CostTableRow& row : file.time) {
+        std::optional<double> sum;
+        for (const std::string& id : row.parts) {
+            bool ran = std::any_of(plan.passes.begin(), plan.passes.end(), [&](auto& pass) { return pass.id == id; });
+            if (ran) sum = sum.value_or(0) + session.graph().timing(id).median;
+        }
+        measured.time_ms.push_back(sum);
+        measured.total_ms += sum.value_or(0);
+    }
+    return measured;
+}
+
+std::string cost_table_markdown(const CostTableFile& file, const std::vector<CostTableMeasured>& measured) {
+    std::string out;
+    auto table = [&](const std::vector<CostTableRow>& rows, const char* unit, auto values, auto total) {
+        if (rows.empty()) return;
+        out += fmt::format("| {} |", unit);
+        std::string rule = "| --- |";
+        for (size_t c = 0; c < measured.size(); ++c) {
+            out += " " + file.columns[c].name + " |";
+            rule += " ---: |";
+        }
+        out += "\n" + rule + "\n";
+        std::vector<double> published_total(measured.size(), 0);
+        for (size_t r = 0; r < rows.size(); ++r) {
+            out += "| " + rows[r].name + " |";
+            for (size_t c = 0; c < measured.size(); ++c) {
+                std::optional<double> value = values(measured[c])[r];
+                out += value ? fmt::format(" {:.1f}", *value) : " not run";
+                auto published = rows[r].published.find(file.columns[c].name);
+                if (published != rows[r].published.end()) {
+                    out += fmt::format(" [{:.1f}]", published->second);
+                    published_total[c] += published->second;
+                }
+                out += " |";
+            }
+            out += "\n";
+        }
+        out += "| all |";
+        for (size_t c = 0; c < measured.size(); ++c) {
+            out += fmt::format(" {:.1f}", total(measured[c]));
+            if (published_total[c] > 0) out += fmt::format(" [{:.1f}]", published_total[c]);
+            out += " |";
+        }
+        out += "\n\n";
+    };
+    table(
+        file.memory, "MB (10⁶ bytes)", [](auto& m) { return m.memory_mb; }, [](auto& m) { return m.total_mb; });
+    table(
+        file.time, "ms", [](auto& m) { return m.time_ms; }, [](auto& m) { return m.total_ms; });
+    if (!measured.empty()) out += "Measured on " + measured.front().renderer + ".";
+    if (!file.published_by.empty()) out += " In brackets: " + file.published_by + ".";
+    return out + "\n";
+}
+
+} // namespace bounce

@@ -1,0 +1,55 @@
+#pragma once
+// Tables of memory and time in the form of a paper's: passes and resources grouped into its stages and structures,
+// shots and settings as its columns, and its own figures beside ours.
+//   { "about": "…", "graph": "lrsm",
+//     "columns": [{"name": "Sponza", "shot": "sponza", "set": {"occlusion_voxels.resolution": 512}}],
+//     "memory":  [{"name": "Occlusion voxels", "resources": ["voxels.occlusion"], "published": {"Sponza": 156.4}}],
+//     "time":    [{"name": "Voxelization", "passes": ["occlusion_voxels"], "published": {"Sponza": 5.3}}],
+//     "published_by": "LRSM paper, GTX 770" }
+
+#include "app/experiments/sweep.h"
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bounce {
+
+struct CostTableColumn {
+    std::string name, shot, graph;
+    ParameterValues sets;
+};
+
+struct CostTableRow {
+    std::string name;
+    std::vector<std::string> parts;          ///< resources or passes; their sum is the row
+    std::map<std::string, double> published; ///< by column: MB (10⁶ bytes) or ms, as the paper prints them
+};
+
+struct CostTableFile {
+    std::string about, published_by;
+    std::vector<CostTableColumn> columns;
+    std::vector<CostTableRow> memory, time;
+};
+
+/// Throws Error that lists every problem. Finds "name" in assets/tables too.
+CostTableFile load_cost_table(const std::string& name);
+
+/// What one column measured: 10⁶ bytes and milliseconds by row; none where no part of the row ran.
+struct CostTableMeasured {
+    std::string renderer;
+    std::vector<std::optional<double>> memory_mb, time_ms;
+    double total_mb = 0, total_ms = 0; ///< of the rows
+};
+
+/// Renders `warm_up` + `frames` frames; times are medians. Throws Error.
+CostTableMeasured measure_column(const CostTableFile& file, const CostTableColumn& column,
+                                 std::optional<glm::ivec2> size, int warm_up, int frames);
+
+/// The tables as Markdown: ours, and the paper's figures in brackets.
+std::string cost_table_markdown(const CostTableFile& file, const std::vector<CostTableMeasured>& measured);
+
+} // namespace bounce

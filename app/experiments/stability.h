@@ -1,0 +1,23 @@
+#pragma once
+// How steady a part of the picture is from frame to frame while lights or objects of the shot move in small steps.
+
+#include "app/session.h"
+
+#include <string>
+
+namespace bounce {
+
+/// Of luminance, relative to the mean over all frames and pixels where there is a surface. The second difference
+/// L(i+1) − 2·L(i) + L(i−1) leaves out what changes evenly: a light that moves on gives next to none, flicker does.
+struct StabilityFigures {
+    int frames = 0;
+    double mean = 0;        ///< luminance
+    double change = 0;      ///< RMS of L(i+1) − L(i), over the mean
+    double flicker = 0;     ///< RMS of the second difference, over the mean
+    double flicker_p99 = 0; ///< 99th percentile of its magnitude, over the mean
+};
+
+/// Renders `frames` ≥ 3 frames of the session's shot. Throws Error when `resource` is no picture of the graph.
+StabilityFigures measure_stability(Session& session, const std::string& resource, int frames);
+
+} // namespace bounce

@@ -1,0 +1,159 @@
+"""bounce chart: what it writes, that it goes on where it stopped, and that its parts join to the whole."""
+
+import csv
+import json
+import re
+import resource
+import time
+import unittest
+import xml.etree.ElementTree as xml
+
+from program import ROOT, ProgramTest
+
+SWEEP = {"base": {"direct.depth_bias": 0.1},
+         "lists": {"shadow_maps.resolution": [32, 64], "direct.normal_offset": [0, 1]}}
+VALUES = {("32", "0"), ("32", "1"), ("64", "0"), ("64", "1")}
+
+
+class Chart(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        (self.root / "assets" / "sweeps").symlink_to(ROOT / "assets" / "sweeps")
+        self.sweep = self.folder / "sweep.json"
+        self.sweep.write_text(json.dumps(SWEEP))
+
+    def environment(self):
+        return dict(super().environment(), XDG_CACHE_HOME=str(self.folder / "cache"))
+
+    def arguments(self, output, *more):
+        return ["chart", self.shot, "--sweep", self.sweep, "--size", "32x24", "--warmup", "1", "--frames", "3", "--spp",
+                "4", *more, "-o", output]
+
+    def rows(self, folder):
+        with open(self.out / folder / "chart.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def values(self, folder):
+        rows = [(row["shadow_maps.resolution"], row["direct.normal_offset"]) for row in self.rows(folder)]
+        self.assertEqual(len(rows), len(set(rows)), "each point once")
+        return set(rows)
+
+    def point_files(self, folder):
+        return {path.name: path.read_bytes() for path in (self.out / folder / "points").glob("*.json")}
+
+
+class Reports(Chart):
+    def test_the_four_reports_say_the_same(self):
+        self.assert_good(self.run_program(*self.arguments("c")))
+        rows = self.rows("c")
+        self.assertEqual(self.values("c"), VALUES)
+        for row in rows:
+            self.assertGreater(float(row["total_ms"]), 0)
+            self.assertLessEqual(float(row["direct_p10_ms"]), float(row["direct_ms"]))
+            self.assertLessEqual(float(row["direct_ms"]), float(row["direct_p90_ms"]))
+            self.assertGreater(float(row["mib"]), 0)
+            self.assertEqual(row["bounces"], "0")
+            # All light is more than direct light.
+            self.assertLess(float(row["full_bias"]), float(row["bias"]))
+        points = json.loads((self.out / "c/chart.json").read_text())
+        by_error = {f"{p['same_transport']['relative_rmse']:.6g}" for p in points}
+        self.assertEqual(by_error, {row["relative_rmse"] for row in rows})
+        # The front: no point of it is beaten in both time and error by any other.
+        front = [row for row in rows if row["pareto"] == "1"]
+        self.assertTrue(front)
+        for row in front:
+            for other in rows:
+                self.assertFalse(float(other["total_ms"]) < float(row["total_ms"]) and
+                                 float(other["relative_rmse"]) < float(row["relative_rmse"]))
+        svg = xml.parse(self.out / "c/chart.svg").getroot()
+        titles = [title for title in svg.iter("{http://www.w3.org/2000/svg}title")]
+        self.assertEqual(len(titles), 4)
+        self.assertEqual(sum("on the Pareto front" in title.text for title in titles), len(front))
+
+    def test_the_page_is_self_contained_and_its_commands_work(self):
+        self.sweep.write_text(json.dumps({"lists": {"shadow_maps.resolution": [32]}}))
+        self.assert_good(self.run_program(*self.arguments("c")))
+        page = (self.out / "c/chart.html").read_text()
+        for source in re.findall(r'(?:src|href)="([^"]*)"', page):
+            self.assertTrue(source.startswith("data:"), source)
+        self.assertEqual(page.count("data:image/png;base64,"), 2, "a picture and an error map")
+        command = re.search(r"<code>bounce (render [^<]*)</code>", page).group(1).split()
+        self.assert_good(self.run_program(*command))
+        self.assertTrue((self.out / "x.exr").exists())
+
+
+class Parts(Chart):
+    def test_an_interrupted_chart_goes_on(self):
+        process = self.start_program(*self.arguments("c"))
+        deadline = time.monotonic() + 60
+        while not self.out.joinpath("c/points").is_dir() or not self.point_files("c"):
+            self.assertLess(time.monotonic(), deadline, (self.folder / "said").read_text())
+            time.sleep(0.005)
+        self.stop(process)
+        before = self.point_files("c")
+        result = self.run_program(*self.arguments("c"))
+        self.assert_good(result)
+        self.assertEqual(len(re.findall("there already", result.stdout)), len(before))
+        after = self.point_files("c")
+        self.assertEqual({name: after[name] for name in before}, before, "what was measured stays")
+        self.assertEqual(self.values("c"), VALUES)
+
+    def test_shards_merge_to_the_whole(self):
+        for i in range(3):
+            self.assert_good(self.run_program(*self.arguments(f"part{i}", "--shard", f"{i}/3")))
+        parts = [self.values(f"part{i}") for i in range(3)]
+        self.assertEqual([len(part) for part in parts], [2, 1, 1])
+        self.assert_good(self.run_program("chart", "--merge", "part0", "part1", "part2", "-o", "whole"))
+        self.assertEqual(self.values("whole"), VALUES)
+        # A merged chart is a chart: measuring all of it finds every point there.
+        result = self.run_program(*self.arguments("whole"))
+        self.assertEqual(len(re.findall("there already", result.stdout)), 4)
+
+    def test_a_shard_without_points_is_no_error(self):
+        result = self.run_program(*self.arguments("part", "--shard", "7/8"))
+        self.assert_good(result)
+        self.assert_good(self.run_program(*self.arguments("all", "--shard", "0/1")))
+        self.assert_good(self.run_program("chart", "--merge", "all", "part", "-o", "whole"))
+        self.assertEqual(self.values("whole"), VALUES)
+
+
+class Refusals(Chart):
+    def test_requests_that_cannot_be(self):
+        for shard in ("2/2", "-1/2", "1", "a/b", "0/0"):
+            self.assert_refused(self.run_program(*self.arguments("c", f"--shard={shard}")), "--shard", "i/n")
+        self.assert_refused(self.run_program("chart", "-o", "c"), "at least one shot")
+        self.assert_refused(self.run_program("chart", self.shot, "--graphs", "driect", "-o", "c"), "did you mean 'direct'")
+        self.assert_refused(self.run_program("chart", self.shot, "--sweep", "shadow_map", "-o", "c"),
+                            "did you mean 'shadow_maps'")
+        self.assert_refused(self.run_program("chart", "--merge", "nowhere", "-o", "c"), "nowhere")
+        self.sweep.write_text('{"lists": {"shadow_maps.resolution": []}, "bse": {}}')
+        self.assert_refused(self.run_program(*self.arguments("c")), "shadow_maps.resolution", "did you mean 'base'")
+
+    def test_a_wrong_value_costs_its_own_point_only(self):
+        self.sweep.write_text(json.dumps({"lists": {"shadow_maps.resolution": [32, 1]}}))
+        result = self.run_program(*self.arguments("c"))
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("[16, 8192]", result.stderr)
+        self.assertEqual([row["shadow_maps.resolution"] for row in self.rows("c")], ["32"])
+
+    def test_a_full_disk_is_told_and_costs_no_point_that_was_measured(self):
+        self.sweep.write_text(json.dumps({"lists": {"shadow_maps.resolution": [32]}}))
+        self.assert_good(self.run_program(*self.arguments("c")))
+        before = self.point_files("c")
+        self.sweep.write_text(json.dumps({"lists": {"shadow_maps.resolution": [32, 64]}}))
+
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (200, 200))
+
+        # Without its signal, the limit acts as a full disk does: a write fails.
+        result = self.run_program(*self.arguments("c"), preexec_fn=limit, restore_signals=False)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("cannot write", result.stderr)
+        self.assertEqual(self.point_files("c"), before)
+        self.assertFalse(list((self.out / "c").rglob("*.tmp")))
+        self.assert_good(self.run_program(*self.arguments("c")))
+        self.assertEqual(len(self.rows("c")), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,87 @@
+"""bounce compare: figures of good files, and one clear message for bad ones."""
+
+import json
+import pathlib
+import unittest
+
+from exr import write_exr
+from program import SMALL, ProgramTest
+
+NAN = float("nan")
+
+
+class Compare(ProgramTest):
+    def write(self, name, width=4, height=3, value=1.0, part="out.direct", at=None):
+        channels = {f"{part}.{c}": [value] * (width * height) for c in "RGB"}
+        if at is not None:
+            channels[f"{part}.G"][at[0]] = at[1]
+        write_exr(self.out / name, width, height, channels)
+        return name
+
+    def refused(self, *arguments, words, leaves):
+        result = self.run_program("compare", *arguments)
+        self.assert_refused(result, *words, leaves=leaves)
+        self.assertEqual(result.stdout, "", "no figures of a comparison that was refused")
+
+    def test_a_picture_against_itself_and_against_a_brighter_one(self):
+        a, b = self.write("a.exr", value=1.1), self.write("b.exr")
+        same = json.loads(self.run_program("compare", a, a, "--json").stdout)["parts"]["out.direct"]
+        self.assertEqual((same["bias"], same["rmse"], same["flip"]), (0, 0, 0))
+        other = json.loads(self.run_program("compare", a, b, "--json").stdout)["parts"]["out.direct"]
+        self.assertAlmostEqual(other["bias"], 0.1, places=6)
+        self.assertAlmostEqual(other["relative_rmse"], 0.1, places=6)
+
+    def test_a_value_that_is_not_finite(self):
+        good = self.write("good.exr")
+        for name, value in (("nan.exr", NAN), ("inf.exr", float("inf"))):
+            bad = self.write(name, at=(5, value))
+            self.refused(bad, good, words=["out.direct of the image", "(1, 1)"], leaves=["good.exr", name])
+            self.refused(good, bad, words=["out.direct of the reference", "(1, 1)"], leaves=["good.exr", name])
+            (self.out / name).unlink()
+
+    def test_sizes_that_differ(self):
+        a, b = self.write("a.exr"), self.write("b.exr", width=3, height=4)
+        self.refused(a, b, words=["4x3", "3x4"], leaves=["a.exr", "b.exr"])
+
+    def test_files_that_are_missing_or_broken(self):
+        a = self.write("a.exr")
+        self.refused(a, "truth.exr", words=["truth.exr", "No such file"], leaves=["a.exr"])
+        self.refused("none.exr", a, words=["none.exr"], leaves=["a.exr"])
+        bytes_of_a = (self.out / a).read_bytes()
+        for length in (0, 7, 100, len(bytes_of_a) - 1):
+            (self.out / "cut.exr").write_bytes(bytes_of_a[:length])
+            self.refused(a, "cut.exr", words=["cut.exr"], leaves=["a.exr", "cut.exr"])
+
+    def test_parts_that_are_not_there(self):
+        a, b = self.write("a.exr"), self.write("b.exr", part="out.emitted")
+        self.refused(a, b, words=["no part in common", "out.direct", "out.emitted"], leaves=["a.exr", "b.exr"])
+        self.refused(a, a, "--resource", "out.dircet", words=["did you mean 'out.direct'"], leaves=["a.exr", "b.exr"])
+
+    def test_linear_and_display_values_are_not_mixed(self):
+        a = self.write("a.exr")
+        self.assert_good(self.run_program("render", self.shot, *SMALL, "--size", "4x3", "-o", "a.png"))
+        self.refused(a, "a.png", words=["display values", "linear"], leaves=["a.exr", "a.png"])
+
+    def test_a_heat_map_that_cannot_be_written_costs_no_figures(self):
+        a, b = self.write("a.exr", value=1.1), self.write("b.exr")
+        self.refused(a, b, "--heatmap", "none/h.png", words=["none"], leaves=["a.exr", "b.exr"])
+        if pathlib.Path("/dev/full").exists():
+            (self.out / "full.png").symlink_to("/dev/full")
+            result = self.run_program("compare", a, b, "--json", "--heatmap", "full.png")
+            self.assert_refused(result, "full.png", "No space left", leaves=["a.exr", "b.exr", "full.png"])
+            self.assertAlmostEqual(json.loads(result.stdout)["parts"]["out.direct"]["bias"], 0.1, places=6)
+        self.assert_good(self.run_program("compare", a, b, "--heatmap", "h.png"))
+        self.assertEqual((self.out / "h.png").read_bytes()[16:24], b"\0\0\0\x04\0\0\0\x03")
+
+    def test_figures_that_cannot_be_printed_are_an_error(self):
+        if not pathlib.Path("/dev/full").exists():
+            self.skipTest("there is no /dev/full")
+        a = self.write("a.exr")
+        with open("/dev/full", "w") as full:
+            result = self.run_program("compare", a, a, "--json", stdout_file=full)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("No space left", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

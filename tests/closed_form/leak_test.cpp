@@ -1,0 +1,97 @@
+// Light that leaks into a sealed room: a box with walls of .25 … 4 voxels, lit from outside. Inside it is dark. What
+// the method sees there is told as a share of what it sees when the lit wall is taken away, so that a method that loses
+// light everywhere does not look tight.
+#include "app/session.h"
+#include "support/gpu_context.h"
+#include "support/temp_folder.h"
+#include "support/tiny_scene.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+using namespace bounce;
+
+namespace {
+
+constexpr int k_resolution = 64;
+
+class Leak : public GpuTest {
+  protected:
+    /// A room of 2 × 2 × 2 m whose walls are `thickness` metres; `open`: without the wall at +x.
+    std::string room(const std::string& name, float thickness, bool open) {
+        TinyScene scene;
+        float i = 1, o = 1 + thickness;
+        glm::vec3 grey(0.7f);
+        // Inner faces look inward.
+        scene.quad({-i, -i, i}, {i, -i, i}, {i, -i, -i}, {-i, -i, -i}, grey);
+        scene.quad({-i, i, -i}, {i, i, -i}, {i, i, i}, {-i, i, i}, grey);
+        scene.quad({-i, -i, -i}, {i, -i, -i}, {i, i, -i}, {-i, i, -i}, grey);
+        scene.quad({i, -i, i}, {-i, -i, i}, {-i, i, i}, {i, i, i}, grey);
+        scene.quad({-i, -i, i}, {-i, -i, -i}, {-i, i, -i}, {-i, i, i}, grey);
+        if (!open) {
+            scene.quad({i, -i, -i}, {i, -i, i}, {i, i, i}, {i, i, -i}, grey);
+            scene.box({-o, -o, -o}, {o, o, o}, grey);
+        }
+        // Something outside for the light to fall on, and bounds that are the same for every thickness.
+        scene.quad({3, -2, 2}, {3, -2, -2}, {3, 2, -2}, {3, 2, 2}, grey);
+        scene.quad({-1.5f, -2, 2}, {3, -2, 2}, {3, -2, -2}, {-1.5f, -2, -2}, grey);
+        scene.write(folder.path(), name);
+        return write_shot(
+            folder.path(), name, name + ".gltf", {-0.6f, 0, 0.8f}, {0.9f, -0.3f, -0.6f},
+            R"({"type":"spot","position":[2.8,1.4,0],"direction":[-1,-0.75,0],"intensity":60,"outer_cone_deg":50})");
+    }
+    /// The mean of out.indirect_diffuse, as seen from inside.
+    double seen(const std::string& shot, const std::string& graph,
+                std::vector<std::pair<std::string, std::string>> sets) {
+        SessionOptions options;
+        options.shot = shot;
+        options.graph = graph;
+        options.size = glm::ivec2(32);
+        options.sets = std::move(sets);
+        options.sets.emplace_back("occlusion_voxels.resolution", std::to_string(k_resolution));
+        options.sets.emplace_back("rsm.resolution", "256");
+        Session session(options);
+        session.render();
+        for (const GraphProblem& problem : session.graph().problems())
+            ADD_FAILURE() << problem.error.text();
+        std::vector<float> values = session.graph().texture("out.indirect_diffuse")->read();
+        double sum = 0;
+        for (size_t i = 0; i < values.size(); i += 4)
+            sum += values[i] + values[i + 1] + values[i + 2];
+        return sum;
+    }
+    TempFolder folder;
+};
+
+} // namespace
+
+TEST_F(Leak, OfASealedRoomAgainstTheThicknessOfItsWalls) {
+    const float voxel = 4.5f * (1 + 2.0f / k_resolution) / k_resolution; // the floor's length is the longest edge
+    struct Variant {
+        const char* name;
+        const char* graph;
+        std::vector<std::pair<std::string, std::string>> sets;
+        double most; ///< leak that is let pass from one voxel of wall on: twice what was measured (.015, .019)
+    };
+    // As published more light leaks in than an open wall gives (4.0 at one voxel): it is told, and no limit holds.
+    const Variant variants[] = {
+        {"lrsm (published)", "lrsm", {}, 1e9},
+        {"lrsm_tuned", "lrsm_tuned", {}, 0.03},
+        {"lrsm_tuned, isotropic",
+         "lrsm_tuned",
+         {{"occlusion_voxels.directional_leaves", "false"}, {"voxel_mips.mip_rule", "mean"}},
+         0.04},
+    };
+    for (const Variant& variant : variants) {
+        double open = seen(room("open", voxel, true), variant.graph, variant.sets);
+        ASSERT_GT(open, 0) << variant.name;
+        std::string line;
+        for (float thickness : {0.25f, 1.0f, 2.0f, 4.0f}) {
+            double leak = seen(room("closed", thickness * voxel, false), variant.graph, variant.sets) / open;
+            line += fmt::format("  {} voxels {:.4f}", thickness, leak);
+            RecordProperty(fmt::format("{}_{}", variant.name, thickness), fmt::format("{:.6f}", leak));
+            if (thickness >= 1) EXPECT_LE(leak, variant.most) << variant.name << ", " << thickness << " voxels";
+        }
+        fmt::print("    leak of {:<22}{}\n", variant.name, line);
+    }
+}
