@@ -4,6 +4,9 @@
 //   I = Σ_i L_i·α_i·Π_{j<i} (1 − α_j).
 // hit_then_sample first finds where the cone is blocked, by a thinner cone (where its occlusion passes `hit_threshold`), then
 // looks the maps up there once, with the wide cone's sphere, of `hit_radius` voxels at least.
+#ifndef SEE_SPHERE // what a view of the cones is told of each sphere; the gather itself keeps nothing
+#define SEE_SPHERE(at_hit, centre, t, diameter, alpha, level, share, light)
+#endif
 #include "lrsm/sample.glsl"
 #include "voxel/cone.glsl"
 
@@ -21,6 +24,7 @@ vec4 trace_lit_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter) {
         float radius = max(hit_radius * grid.voxel, 0.5 * diameter * hit);
         for (int view = 0; view < views.length(); ++view)
             light += sample_view(view, apex + hit * direction, radius, -direction, -1.0);
+        SEE_SPHERE(true, apex + hit * direction, hit, 2.0 * radius, 1.0, sphere_level(grid, 2.0 * radius), 1.0, light);
         return vec4(light, 1.0);
     }
     float occlusion = 0.0;
@@ -28,14 +32,16 @@ vec4 trace_lit_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter) {
     for (int i = 0; i < most_steps && t < end && occlusion < 0.99; ++i) {
         vec3 centre = apex + t * direction;
         if (any(lessThan(centre, grid.origin)) || any(greaterThan(centre, grid.origin + grid.side))) break;
-        float d = max(diameter * t, grid.voxel);
-        float alpha = sphere_occlusion(grid, centre, direction, sphere_level(grid, d));
+        float d = max(diameter * t, grid.voxel), level = sphere_level(grid, d), share = 0.0;
+        float alpha = sphere_occlusion(grid, centre, direction, level);
+        vec3 before = light;
         if (alpha > 1.0e-3) {
-            float share = (1.0 - occlusion) * alpha;
+            share = (1.0 - occlusion) * alpha;
             for (int view = 0; view < views.length(); ++view)
                 light += share * sample_view(view, centre, 0.5 * d, -direction, alpha);
             occlusion += share;
         }
+        SEE_SPHERE(false, centre, t, d, alpha, level, share, light - before);
         t += cone_step * d;
     }
     return vec4(light, occlusion);

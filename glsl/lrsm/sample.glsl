@@ -5,6 +5,9 @@
 // lit_fraction replaces it by the share of what blocks the cone that is lit. Solid angle seen from the light, divided by
 // ⟨n·l⟩, is surface; times ⟨n·v⟩ it is surface as the cone sees it, so with w = V·⟨n·v⟩/⟨n·l⟩
 //   L = (Σ A·R·w / Σ A·w) · min(1, Σ A·w / α),   α the sphere's occlusion.
+#ifndef SEE_LAYER // what a view of the cones is told of each layer that light is taken from
+#define SEE_LAYER(level)
+#endif
 #include "lib/shadow.glsl"
 #include "lrsm/partition.glsl"
 
@@ -93,6 +96,7 @@ vec3 sample_view(int view_index, vec3 centre, float radius, vec3 to_viewer, floa
             float mean = moments.r / moments.b;
             float inside = mass_between(mean, moments.g / moments.b - mean * mean, from, to); // V, Eq. 12
             if (inside <= 0.0) continue;
+            SEE_LAYER(at.level);
             if (layers_by_sphere) decay = layer_decay(p, d, range.x + mean * extent);
             vec4 lit = textureLod(lrsm_radiance, vec3(at.uv, float(place)), at.level); // A·R, A·⟨n·l⟩
             if (estimator == 0) {

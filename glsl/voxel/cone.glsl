@@ -5,6 +5,9 @@
 // linearly. Occlusion α is gathered front to back (Eq. 1).
 // With directional leaves the volume is six volumes one behind the other (voxel/occlusion_store.glsl): the three leaves
 // that face the cone are summed with weights |direction_k|, and clamped to 1.
+#ifndef SEE_STEP // what a view of the cones is told of each step toward a hit
+#define SEE_STEP(centre, t, diameter, alpha, level)
+#endif
 #include "lib/voxel_grid.glsl"
 
 uniform sampler3D voxels_occlusion;
@@ -73,6 +76,7 @@ float find_hit(VoxelGrid grid, vec3 apex, vec3 direction, float diameter, float 
         if (any(lessThan(centre, grid.origin)) || any(greaterThan(centre, grid.origin + grid.side))) return -1.0;
         float d = max(diameter * t, grid.voxel), level = sphere_level(grid, d);
         float alpha = sphere_occlusion(grid, centre, direction, max(level, float(skip)));
+        SEE_STEP(centre, t, max(d, exp2(float(skip)) * grid.voxel), alpha, max(level, float(skip)));
         if (float(skip) > level) {
             if (alpha <= 0.0) {
                 t += 0.5 * exp2(float(skip)) * grid.voxel;

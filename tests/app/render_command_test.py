@@ -22,6 +22,9 @@ class Refusals(ProgramTest):
         self.assert_refused(self.render("--resource", "gbuffer.nromal"), "gbuffer.nromal", "did you mean 'gbuffer.normal'?")
         self.assert_refused(self.render("--resource", "gbuffer.emission"), "gbuffer.emission")
 
+        self.assert_refused(self.render("--enable", "emision"), "emision", "did you mean 'emission'?")
+        self.assert_refused(self.render("--disable", "tonemapp"), "did you mean 'tonemap'?")
+
     def test_values_that_cannot_be(self):
         self.assert_refused(self.render("--set", "tonemap.exposure=17"), "[-16, 16]")
         self.assert_refused(self.render("--set", "tonemap.exposure=bright"), "'bright'", "a number")
@@ -129,6 +132,16 @@ class Pictures(ProgramTest):
         folder.mkdir()
         self.render(folder / "x.png")
         self.assertTrue((folder / "x.png").exists(), "a % in a folder's name numbers nothing")
+
+    def test_a_resource_of_a_pass_that_is_off_switches_it_on(self):
+        small = ("--graph", "lrsm", "--set", "occlusion_voxels.resolution=32", "--set", "rsm.resolution=64", "--set", "gather.most_steps=32")
+        self.render("x.png", *small, "--set", "inspect.pixel=0.5,0.9", "--resource", "debug.cones_view")
+        self.render("y.png", *small, "--set", "inspect.pixel=0.5,0.9", "--resource", "debug.cones_view", "--enable", "view_cones")
+        self.assertEqual((self.out / "x.png").read_bytes(), (self.out / "y.png").read_bytes())
+        result = self.render("z.png", *small, "--enable", "view_cubes", "--disable", "emission")
+        self.assertIn("view_cubes", result.stdout)
+        self.assertIn("inspect: not run, switched off", result.stdout)
+        self.assertIn("emission: not run, switched off", result.stdout)
 
     def test_timings(self):
         result = self.render("x.png", "--timings", "t.json", "--frames", "3")
