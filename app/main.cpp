@@ -1,11 +1,14 @@
 // bounce: subcommands, nothing else.
 #include "app/capture.h"
 #include "app/commands/command.h"
+#include "app/commands/usage_error.h"
 #include "app/hosts/headless.h"
 #include "core/error.h"
 #include "core/log.h"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <fmt/format.h>
 
 int main(int argc, char** argv) {
@@ -37,7 +40,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::CallForVersion& version) {
         return app.exit(version);
     } catch (const CLI::ParseError& error) {
-        fmt::print(stderr, "error: {} (bounce --help shows what there is)\n", error.what());
+        fmt::print(stderr, "error: {}\n", usage_error(app, error, argc, argv));
         return 2;
     }
     start_log(verbose);
@@ -47,7 +50,11 @@ int main(int argc, char** argv) {
                 fmt::print("{}: {}\n", device.index, device.name);
             return 0;
         }
-        return chosen ? chosen() : run_default();
+        int code = chosen ? chosen() : run_default();
+        // A table that went to a full disk is lost only when it is flushed.
+        if (std::fflush(stdout) != 0 || std::ferror(stdout))
+            throw Error(fmt::format("the output could not be written: {}", std::strerror(errno)));
+        return code;
     } catch (const Error& error) {
         fmt::print(stderr, "error: {}\n", error.what());
         return 2;
