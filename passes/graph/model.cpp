@@ -156,7 +156,8 @@ Parameter& GraphModel::parameter(const std::string& name) {
     if (name.find('.') == std::string::npos) {
         for (const std::string& full : parameter_names()) {
             if (full.ends_with("." + name))
-                throw Error(fmt::format("'{}' is written with its pass (did you mean '{}'?)", name, full));
+                throw Error(fmt::format("'{}' names no parameter: it is written pass.parameter (did you mean '{}'?)",
+                                        name, full));
         }
     }
     auto [id, parameter] = split_name(name);
