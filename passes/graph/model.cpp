@@ -157,6 +157,13 @@ static std::pair<std::string, std::string> split_name(const std::string& name) {
 }
 
 Parameter& GraphModel::parameter(const std::string& name) {
+    if (name.find('.') == std::string::npos) {
+        for (const std::string& full : parameter_names()) {
+            if (full.ends_with("." + name))
+                throw Error(fmt::format("'{}' names no parameter: it is written pass.parameter (did you mean '{}'?)",
+                                        name, full));
+        }
+    }
     auto [id, parameter] = split_name(name);
     ParameterSet* set = nullptr;
     if (id == "graph")
