@@ -1,0 +1,89 @@
+#ifndef VOXEL_OCCLUSION_BY_TRIANGLE_GLSL
+#define VOXEL_OCCLUSION_BY_TRIANGLE_GLSL
+// Occlusion voxels without a rasterizer: marks exactly the voxels that each triangle overlaps (lib/triangle_box.glsl).
+// Sixteen invocations share a triangle and take the columns along its dominant axis in turn (so that none loops 65,536
+// times at 512³, where some software drivers cut loops off). Alpha-tested materials are looked up at the voxel's middle.
+// No atomics.
+// Whoever includes it defines store_occlusion first.
+#define SCENE_DRAWS
+#define SCENE_MATERIALS
+#define SCENE_GEOMETRY
+#include "lib/scene.glsl"
+#include "lib/triangle_box.glsl"
+#include "lib/voxel_grid.glsl"
+#include "lib/scene_textures.glsl"
+
+layout(local_size_x = 256) in;
+
+// The first triangle of each draw, in order; one more entry at the end.
+layout(std430) readonly buffer voxels_draw_starts { uint draw_starts[]; };
+
+uniform int resolution_of_grid;
+
+const int k_lanes = 16;    // invocations a triangle
+const uint k_row = 65536u; // triangles in a row of the dispatch
+
+int draw_of(uint triangle, int draw_count) {
+    int low = 0, high = draw_count; // draw_starts[low] <= triangle < draw_starts[high]
+    while (high - low > 1) {
+        int middle = (low + high) / 2;
+        if (draw_starts[middle] <= triangle) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
+vec2 plane_of(vec3 p, int axis) {
+    return axis == 0 ? p.yz : (axis == 1 ? p.zx : p.xy);
+}
+ivec3 unproject(ivec2 plane, int depth, int axis) {
+    return axis == 0 ? ivec3(depth, plane) : (axis == 1 ? ivec3(plane.y, depth, plane.x) : ivec3(plane, depth));
+}
+
+void mark_voxels_of_triangle() {
+    int draw_count = draw_starts.length() - 1;
+    uint triangle = gl_GlobalInvocationID.y * k_row + gl_GlobalInvocationID.x / uint(k_lanes);
+    if (draw_count < 1 || triangle >= draw_starts[draw_count]) return;
+    Draw draw = draws[draw_of(triangle, draw_count)];
+    uint first = draw.first_index + 3u * (triangle - draw_starts[draw_of(triangle, draw_count)]);
+    Vertex corners[3] = Vertex[3](vertices[indices[first]], vertices[indices[first + 1u]], vertices[indices[first + 2u]]);
+    vec3 p[3];
+    for (int i = 0; i < 3; ++i)
+        p[i] = world_to_voxel((draw.world * vec4(corners[i].position_u.xyz, 1.0)).xyz, resolution_of_grid);
+    vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
+    float size = length(normal);
+    if (!(size > 0.0)) return;
+
+    // The box around the triangle. Touching counts, so a corner on a border belongs to both sides.
+    vec3 least = min(p[0], min(p[1], p[2])), most = max(p[0], max(p[1], p[2]));
+    ivec3 low = max(ivec3(ceil(least)) - 1, ivec3(0));
+    ivec3 high = min(ivec3(floor(most)), ivec3(resolution_of_grid - 1));
+    if (any(lessThan(high, low))) return;
+
+    int axis = dominant_axis(normal);
+    vec3 facing = normal / size;
+    vec3 authored = mat3(draw.normal_matrix) * (corners[0].normal_v.xyz + corners[1].normal_v.xyz + corners[2].normal_v.xyz);
+    if (dot(facing, authored) < 0.0) facing = -facing;
+    Material material = materials[draw.material];
+    bool both_sides = (material.flags & 1u) != 0u;
+
+    vec3 across = normal;
+    across[axis] = 0.0;
+    float reach = 0.5 * (abs(across.x) + abs(across.y) + abs(across.z)) / abs(normal[axis]) + 1.0e-3;
+    ivec2 plane_low = ivec2(plane_of(vec3(low), axis)), plane_high = ivec2(plane_of(vec3(high), axis));
+    int width = plane_high.x - plane_low.x + 1, columns = width * (plane_high.y - plane_low.y + 1);
+    for (int i = int(gl_GlobalInvocationID.x) % k_lanes; i < columns; i += k_lanes) {
+        ivec2 column = plane_low + ivec2(i % width, i / width);
+        vec3 middle = vec3(unproject(column, 0, axis)) + 0.5;
+        float depth = p[0][axis] - dot(across, middle - p[0]) / normal[axis];
+        int from = max(int(floor(depth - reach)), low[axis]), to = min(int(floor(depth + reach)), high[axis]);
+        for (int d = from; d <= to; ++d) { // at most four: the slopes are at most 1
+            ivec3 voxel = unproject(column, d, axis);
+            if (SKIP_VOXEL(voxel) || !triangle_overlaps_voxel(p[0], p[1], p[2], voxel)) continue;
+            if (material.alpha_cutoff >= 0.0 && alpha_at(material, corners, p, vec3(voxel) + 0.5) < material.alpha_cutoff) continue;
+            store_occlusion(voxel, facing, both_sides, resolution_of_grid);
+        }
+    }
+}
+
+#endif
