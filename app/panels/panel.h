@@ -70,8 +70,8 @@ struct UiState {
     bool notice_is_error = false;
 
     std::shared_ptr<LiveComparison> comparison; ///< made when its panel is first opened
-    std::shared_ptr<ConesState> cones;      ///< likewise
-    bool redraw_panels = false;             ///< set each frame by panels that move by themselves (progress, flicker)
+    std::shared_ptr<ConesState> cones;          ///< likewise
+    bool redraw_panels = false; ///< set each frame by panels that move by themselves (progress, flicker)
 
     bool show_keys = false, show_log = false;
     WindowState window;
