@@ -144,7 +144,7 @@ class Pictures(ProgramTest):
         self.assertTrue((folder / "x.png").exists(), "a % in a folder's name numbers nothing")
 
     def test_a_resource_of_a_pass_that_is_off_switches_it_on(self):
-        small = ("--graph", "lrsm", "--set", "occlusion_voxels.resolution=32", "--set", "rsm.resolution=64", "--set", "gather.most_steps=32")
+        small = ("--graph", "lrsm_tuned", "--set", "occlusion_voxels.resolution=32", "--set", "rsm.resolution=64", "--set", "gather.most_steps=32")
         self.render("x.png", *small, "--set", "inspect.pixel=0.5,0.9", "--resource", "debug.cones_view")
         self.render("y.png", *small, "--set", "inspect.pixel=0.5,0.9", "--resource", "debug.cones_view", "--enable", "view_cones")
         self.assertEqual((self.out / "x.png").read_bytes(), (self.out / "y.png").read_bytes())
