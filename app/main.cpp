@@ -1,6 +1,7 @@
 // bounce: subcommands, nothing else.
 #include "app/capture.h"
 #include "app/commands/command.h"
+#include "app/commands/usage_error.h"
 #include "app/hosts/headless.h"
 #include "core/error.h"
 #include "core/log.h"
@@ -41,7 +42,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::CallForVersion& version) {
         return app.exit(version);
     } catch (const CLI::ParseError& error) {
-        fmt::print(stderr, "error: {} (bounce --help shows what there is)\n", error.what());
+        fmt::print(stderr, "error: {}\n", usage_error(app, error, argc, argv));
         return 2;
     }
     start_log(verbose);
@@ -53,7 +54,8 @@ int main(int argc, char** argv) {
         }
         const int code = chosen ? chosen() : run_default();
         // What is printed may be the result (--json): a full disk behind it is an error as behind any other file.
-        if (std::fflush(stdout) != 0) throw Error(std::string("cannot write the output: ") + std::strerror(errno));
+        if (std::fflush(stdout) != 0 || std::ferror(stdout))
+            throw Error(fmt::format("cannot write the output: {}", std::strerror(errno)));
         return code;
     } catch (const Error& error) {
         fmt::print(stderr, "error: {}\n", error.what());

@@ -21,6 +21,10 @@ Session::Session(SessionOptions options) : options_(std::move(options)), timer_m
         }
     }
     errors.throw_if_any("--set");
+    for (const auto& [id, on] : options_.switches)
+        graph_->model().switch_pass(id, on);
+    for (const std::string& id : graph_->model().off_for(options_.resource))
+        graph_->model().switch_pass(id, true);
     load_scene_to_gpu();
     graph_->prepare(facts_, size_); // so that a bad graph is told at once
 }
@@ -157,6 +161,8 @@ std::string Session::command_line(const std::string& output) const {
     add("graph", graph_->model().graph_parameters());
     for (const auto& node : graph_->model().nodes())
         add(node->id(), node->parameters);
+    for (const auto& node : graph_->model().nodes())
+        if (node->enabled != node->entry.enabled) text += (node->enabled ? " --enable " : " --disable ") + node->id();
     return text + " -o " + output;
 }
 

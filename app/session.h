@@ -19,6 +19,8 @@ struct SessionOptions {
     std::string shot = k_default_shot;
     std::string graph = k_default_graph;
     std::vector<std::pair<std::string, std::string>> sets; ///< "id.parameter" → text, from --set
+    std::vector<std::pair<std::string, bool>> switches;    ///< pass → on or off, from --enable and --disable
+    std::string resource;                                  ///< the passes that make it are switched on
     std::optional<glm::ivec2> size;                        ///< instead of the shot's
     bool check_nan = false;
 };

@@ -54,6 +54,7 @@ int render(const RenderArguments& arguments) {
     numbered(arguments.output, 0); // before anything is computed
     if (!arguments.timings.empty()) check_output_folder(arguments.timings);
     SessionOptions options = arguments.options();
+    options.resource = arguments.resource;
     HeadlessContext context(arguments.device);
     spdlog::debug("{}", describe(context.capabilities()));
     Session session(options);

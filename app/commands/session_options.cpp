@@ -13,6 +13,9 @@ void SessionArguments::add_to(CLI::App& command, bool shot_required) {
     command.add_option("--graph,-g", graph, "a graph: name or .json")->capture_default_str();
     command.add_option("--set", sets, "a parameter: pass.name=value (repeatable; `bounce params` lists them)")
         ->allow_extra_args(false);
+    command.add_option("--enable", enabled, "switch on a pass that the graph has off, and what it needs (repeatable)")
+        ->allow_extra_args(false);
+    command.add_option("--disable", disabled, "switch off a pass (repeatable)")->allow_extra_args(false);
     command.add_option("--size", size, "WxH instead of the shot's size");
     command.add_option("--device", device, "which EGL device (see --list-devices)");
     command.add_flag("--check-nan", check_nan, "look for values that are not finite after every pass");
@@ -30,6 +33,10 @@ SessionOptions SessionArguments::options() const {
         }
         out.sets.emplace_back(set.substr(0, equals), set.substr(equals + 1));
     }
+    for (const std::string& id : enabled)
+        out.switches.emplace_back(id, true);
+    for (const std::string& id : disabled)
+        out.switches.emplace_back(id, false);
     if (!size.empty()) {
         static const std::regex form("([0-9]{1,5})x([0-9]{1,5})");
         std::smatch match;

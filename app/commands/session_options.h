@@ -11,6 +11,7 @@ struct SessionArguments {
     std::string shot = k_default_shot;
     std::string graph = k_default_graph;
     std::vector<std::string> sets;
+    std::vector<std::string> enabled, disabled;
     std::string size;
     int device = -1;
     bool check_nan = false;

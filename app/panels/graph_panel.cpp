@@ -66,8 +66,9 @@ void draw_problems(const Graph& graph) {
     }
 }
 
-void switch_pass(Session& session, UiState& ui, const std::string& id, bool on) {
-    if (PassNode* node = session.graph().model().find_node(id)) node->enabled = on;
+void switch_passes(Session& session, UiState& ui, const std::vector<std::string>& ids, bool on) {
+    for (const std::string& id : ids)
+        if (PassNode* node = session.graph().model().find_node(id)) node->enabled = on;
     session.graph().touch();
     ui.redraw();
 }
@@ -79,10 +80,13 @@ void draw_switch(PanelContext& context, const std::string& id) {
     if (ImGui::Checkbox("##enabled", &on)) {
         Session& session = context.session;
         UiState& ui = context.ui;
-        switch_pass(session, ui, id, on);
+        // With a pass come on those that make what it reads.
+        std::vector<std::string> ids{id};
+        if (on) ids = session.graph().model().off_before(id);
+        switch_passes(session, ui, ids, on);
         context.undo.push({(on ? "switch on " : "switch off ") + id,
-                           [&session, &ui, id, on] { switch_pass(session, ui, id, !on); },
-                           [&session, &ui, id, on] { switch_pass(session, ui, id, on); }});
+                           [&session, &ui, ids, on] { switch_passes(session, ui, ids, !on); },
+                           [&session, &ui, ids, on] { switch_passes(session, ui, ids, on); }});
     }
     ImGui::PopStyleVar();
     note_widget("graph.enabled." + id);

@@ -42,6 +42,7 @@ struct ParameterEdit {
 };
 
 class LiveComparison;
+struct ConesState;
 
 /// State of the window that is no part of the session.
 struct UiState {
@@ -69,6 +70,7 @@ struct UiState {
     bool notice_is_error = false;
 
     std::shared_ptr<LiveComparison> comparison; ///< made when its panel is first opened
+    std::shared_ptr<ConesState> cones;          ///< likewise
     bool redraw_panels = false; ///< set each frame by panels that move by themselves (progress, flicker)
 
     bool show_keys = false, show_log = false;
@@ -112,6 +114,7 @@ void draw_parameters_panel(PanelContext& context); ///< every parameter; origin,
 void draw_shaders_panel(PanelContext& context);    ///< programs and their errors
 void draw_resources_panel(PanelContext& context);  ///< every texture and buffer; chooses ui.viewer
 void draw_inspector_panel(PanelContext& context);  ///< exact values under the cursor
+void draw_cones_panel(PanelContext& context);      ///< the gather's cones at the pointer's pixel, sphere by sphere
 void draw_scene_panel(PanelContext& context);      ///< shot, scene facts, lights, materials, environment
 void draw_camera_panel(PanelContext& context);     ///< camera, bookmarks, time
 void draw_capture_panel(PanelContext& context);    ///< PNG, EXR, numbered frames, shot and command line, graph preset

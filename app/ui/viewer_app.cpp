@@ -57,6 +57,7 @@ ViewerApp::~ViewerApp() {
     }
     viewport_.release_gpu();
     ui_.comparison.reset();
+    ui_.cones.reset();
     session_.reset();
 }
 

@@ -211,6 +211,7 @@ void ViewerApp::recover_from_reset() {
     session_->release_gpu();
     viewport_.release_gpu();
     if (ui_.comparison) ui_.comparison->release_gpu();
+    ui_.cones.reset();
     window_->make_again();
     make_interface();
     session_->restore_gpu();

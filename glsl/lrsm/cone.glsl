@@ -4,6 +4,9 @@
 //   I = Σ_i L_i·α_i·Π_{j<i} (1 − α_j).
 // hit_then_sample first finds where the cone is blocked, by a thinner cone (where its occlusion passes `hit_threshold`), then
 // looks the maps up there once, with the wide cone's sphere, of `hit_radius` voxels at least.
+#ifndef SEE_SPHERE // what a view of the cones is told of each sphere; the gather itself keeps nothing
+#define SEE_SPHERE(at_hit, centre, t, diameter, alpha, level, share, light)
+#endif
 #include "lrsm/sample.glsl"
 #include "voxel/cone.glsl"
 
@@ -12,15 +15,34 @@ uniform float hit_aperture = 2.0;     //! [0, 90] (degrees) hit_then_sample: of 
 uniform float hit_threshold = 0.5;   //! [0.05, 0.99] hit_then_sample: occlusion from which the cone counts as blocked
 uniform float hit_radius = 1.5;       //! [0.25, 16] (voxels) hit_then_sample: radius of the sphere that is looked up
 
-// Radiance along the cone, and in a its occlusion. `diameter`: 2·tan(θ/2), metres a metre.
-vec4 trace_lit_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter) {
+uniform int near_spheres = 0;        //! [0, 8] hit_then_sample: spheres between the surface and where cones start, lit by the maps alone
+uniform float near_diameter = 0.5;   //! [0.05, 2] (voxels) of these spheres
+
+// Radiance along the cone, and in a its occlusion. `diameter`: 2·tan(θ/2), metres a metre. The cone starts at `apex`, off
+// the surface at `surface`: what lies between is too near for voxels to tell it from the surface itself. near_spheres look
+// the maps up there: what is lit and faces the surface counts, and blocks, by the share of the sphere that it covers.
+vec4 trace_lit_cone(VoxelGrid grid, vec3 surface, vec3 apex, vec3 direction, float diameter) {
     vec3 light = vec3(0.0);
     if (hit_then_sample) {
+        float open = 1.0;
+        for (int k = 0; k < near_spheres; ++k) {
+            float d = near_diameter * grid.voxel, t = (float(k) + 0.5) * d, blocked = 0.0;
+            vec3 sum = vec3(0.0);
+            for (int view = 0; view < views.length(); ++view) {
+                vec4 lit = sample_lit(view, surface + t * direction, 0.5 * d, -direction);
+                sum += lit.rgb;
+                blocked = max(blocked, lit.a); // two lights see the same surface
+            }
+            light += open * sum;
+            SEE_SPHERE(false, surface + t * direction, t, d, blocked, 0.0, open * blocked, open * sum);
+            open *= 1.0 - blocked;
+        }
         float hit = find_hit(grid, apex, direction, 2.0 * tan(radians(0.5 * hit_aperture)), hit_threshold);
-        if (hit < 0.0) return vec4(0.0);
+        if (hit < 0.0) return vec4(light, 1.0 - open);
         float radius = max(hit_radius * grid.voxel, 0.5 * diameter * hit);
         for (int view = 0; view < views.length(); ++view)
-            light += sample_view(view, apex + hit * direction, radius, -direction, -1.0);
+            light += open * sample_view(view, apex + hit * direction, radius, -direction, -1.0);
+        SEE_SPHERE(true, apex + hit * direction, hit, 2.0 * radius, 1.0, sphere_level(grid, 2.0 * radius), 1.0, light);
         return vec4(light, 1.0);
     }
     float occlusion = 0.0;
@@ -28,14 +50,16 @@ vec4 trace_lit_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter) {
     for (int i = 0; i < most_steps && t < end && occlusion < 0.99; ++i) {
         vec3 centre = apex + t * direction;
         if (outside_grid(grid, centre)) break;
-        float d = max(diameter * t, grid.voxel);
-        float alpha = sphere_occlusion(grid, centre, direction, sphere_level(grid, d));
+        float d = max(diameter * t, grid.voxel), level = sphere_level(grid, d), share = 0.0;
+        float alpha = sphere_occlusion(grid, centre, direction, level);
+        vec3 before = light;
         if (alpha > 1.0e-3) {
-            float share = (1.0 - occlusion) * alpha;
+            share = (1.0 - occlusion) * alpha;
             for (int view = 0; view < views.length(); ++view)
                 light += share * sample_view(view, centre, 0.5 * d, -direction, alpha);
             occlusion += share;
         }
+        SEE_SPHERE(false, centre, t, d, alpha, level, share, light - before);
         t += cone_step * d;
     }
     return vec4(light, occlusion);

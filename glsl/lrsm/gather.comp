@@ -1,41 +1,27 @@
 // Final gather of diffuse indirect light (LRSM, section 5): a set of cones over the hemisphere of each pixel's surface.
 // Writes the mean radiance from there, weighted by the cosine (E/π): times the albedo it is what the surface sends on.
-// a = 1 − occlusion. At less than full resolution each texel takes the pixel at its middle.
-#include "lrsm/cone.glsl"
-#include "voxel/cone_set.glsl"
+// a = 1 − occlusion.
+#include "lrsm/gather_cones.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-uniform sampler2D gbuffer_geometric_normal;
-uniform sampler2D gbuffer_normal;
-uniform sampler2D gbuffer_depth;
 layout(FORMAT_lrsm_irradiance) writeonly uniform image2D lrsm_irradiance;
-
-uniform int cone_set = 0;       //! {six, six_tilted, spiral} six as published
-uniform int spiral_cones = 32;  //! [4, 128] cones of the set spiral
-uniform int interleave = 1;     //! [1, 8] (texels) neighbours in blocks of n × n take different cones; 1: all take the same
-uniform float aperture = 60.0;  //! [1, 90] (degrees) of each cone, from side to side
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(lrsm_irradiance);
     if (any(greaterThanEqual(texel, size))) return;
-    ivec2 pixel = min((2 * texel + 1) * resolution / (2 * size), resolution - 1);
-    float depth = texelFetch(gbuffer_depth, pixel, 0).r;
-    if (depth <= 0.0) {
+    VoxelGrid grid = occlusion_grid();
+    GatherPoint point;
+    if (!gather_point(grid, texel, gather_pixel(texel, size), point)) {
         imageStore(lrsm_irradiance, texel, vec4(0.0));
         return;
     }
-    VoxelGrid grid = occlusion_grid();
-    vec3 n = normalize(texelFetch(gbuffer_normal, pixel, 0).xyz);
-    vec3 face = normalize(texelFetch(gbuffer_geometric_normal, pixel, 0).xyz);
-    vec3 apex = world_position(pixel, depth) + normal_offset * grid.voxel * face;
-    mat3 frame = frame_around(n);
     float diameter = 2.0 * tan(radians(0.5 * aperture));
-    float part = interleaved_part(texel, interleave);
     vec4 sum = vec4(0.0);
-    for (int i = 0; i < cone_count(cone_set, spiral_cones); ++i) {
-        vec4 cone = cone_of(cone_set, spiral_cones, i, part);
-        sum += cone.w * trace_lit_cone(grid, apex, frame * cone.xyz, diameter);
+    for (int i = 0; i < gather_cone_count(); ++i) {
+        vec4 cone;
+        vec4 traced = gather_cone(grid, point, i, diameter, cone);
+        sum += cone.w * traced;
     }
     imageStore(lrsm_irradiance, texel, vec4(min(sum.rgb, vec3(65504.0)), 1.0 - sum.a));
 }

@@ -5,6 +5,9 @@
 // lit_fraction replaces it by the share of what blocks the cone that is lit. Solid angle seen from the light, divided by
 // ⟨n·l⟩, is surface; times ⟨n·v⟩ it is surface as the cone sees it, so with w = V·⟨n·v⟩/⟨n·l⟩
 //   L = (Σ A·R·w / Σ A·w) · min(1, Σ A·w / α),   α the sphere's occlusion.
+#ifndef SEE_LAYER // what a view of the cones is told of each layer that light is taken from
+#define SEE_LAYER(level)
+#endif
 #include "lib/shadow.glsl"
 #include "lrsm/partition.glsl"
 
@@ -62,9 +65,11 @@ bool sphere_in_map(ShadowView view, vec3 centre, float radius, out SphereInMap a
 
 // `to_viewer`: from the sphere to the cone's apex. `alpha`: the sphere's occlusion; below 0: the sphere lies on a surface
 // that blocks the whole cone, which covers the share ⟨n·v⟩ of the sphere's section.
-vec3 sample_view(int view_index, vec3 centre, float radius, vec3 to_viewer, float alpha) {
+// published: Σ f·A·R·V·N; lit_fraction: (Σ A·R·w / Σ A·w, Σ A·w). `facing`: the mean of N over what is lit.
+vec4 sample_sums(int view_index, vec3 centre, float radius, vec3 to_viewer, out float mean_facing) {
+    mean_facing = 1.0;
     SphereInMap at;
-    if (!sphere_in_map(views[view_index], centre, radius, at)) return vec3(0.0);
+    if (!sphere_in_map(views[view_index], centre, radius, at)) return vec4(0.0);
     Partition p = partitions[view_index];
     vec3 radiance = vec3(0.0); // Σ f·A·R·V·N, or Σ A·R·w
     float weight = 0.0;        // Σ A·w
@@ -93,6 +98,7 @@ vec3 sample_view(int view_index, vec3 centre, float radius, vec3 to_viewer, floa
             float mean = moments.r / moments.b;
             float inside = mass_between(mean, moments.g / moments.b - mean * mean, from, to); // V, Eq. 12
             if (inside <= 0.0) continue;
+            SEE_LAYER(at.level);
             if (layers_by_sphere) decay = layer_decay(p, d, range.x + mean * extent);
             vec4 lit = textureLod(lrsm_radiance, vec3(at.uv, float(place)), at.level); // A·R, A·⟨n·l⟩
             if (estimator == 0) {
@@ -105,9 +111,26 @@ vec3 sample_view(int view_index, vec3 centre, float radius, vec3 to_viewer, floa
             }
         }
     }
-    if (estimator == 0) return radiance;
-    if (alpha < 0.0) alpha = facing_sum.x / max(facing_sum.y, 1.0e-6);
-    return weight > 0.0 ? radiance / weight * min(1.0, weight / max(alpha, 1.0e-3)) : vec3(0.0);
+    mean_facing = facing_sum.x / max(facing_sum.y, 1.0e-6);
+    if (estimator == 0) return vec4(radiance, 0.0);
+    return weight > 0.0 ? vec4(radiance / weight, weight) : vec4(0.0);
+}
+
+// `to_viewer`: from the sphere to the cone's apex. `alpha`: the sphere's occlusion; below 0: the sphere lies on a surface
+// that blocks the whole cone, which covers the share ⟨n·v⟩ of the sphere's section.
+vec3 sample_view(int view_index, vec3 centre, float radius, vec3 to_viewer, float alpha) {
+    float mean_facing;
+    vec4 lit = sample_sums(view_index, centre, radius, to_viewer, mean_facing);
+    if (estimator == 0) return lit.rgb;
+    return lit.rgb * min(1.0, lit.a / max(alpha < 0.0 ? mean_facing : alpha, 1.0e-3));
+}
+
+// Light of what is lit inside a sphere, and in a the share of its section that it covers.
+vec4 sample_lit(int view_index, vec3 centre, float radius, vec3 to_viewer) {
+    float mean_facing;
+    vec4 lit = sample_sums(view_index, centre, radius, to_viewer, mean_facing);
+    lit.a = min(lit.a, 1.0);
+    return vec4(lit.rgb * lit.a, lit.a);
 }
 
 #endif

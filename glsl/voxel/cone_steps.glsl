@@ -3,6 +3,9 @@
 // How cones walk through voxels (Crassin et al. 2011; LRSM, section 3.1; DVS, section VIII): a cone is a row of spheres; the
 // sphere at distance t has diameter d = 2·t·tan(θ/2), at least a voxel, and is looked up at mip log2(d/voxel); the next one
 // lies cone_step·d farther. Whoever includes this file says what a sphere's occlusion is.
+#ifndef SEE_STEP // what a view of the cones is told of each step toward a hit
+#define SEE_STEP(centre, t, diameter, alpha, level)
+#endif
 #include "lib/voxel_grid.glsl"
 
 uniform float cone_step = 0.5;         //! [0.05, 2] the step from sphere to sphere as a share of their diameter (β)
@@ -62,6 +65,7 @@ float find_hit(VoxelGrid grid, vec3 apex, vec3 direction, float diameter, float 
         if (outside_grid(grid, centre)) return -1.0;
         float d = max(diameter * t, grid.voxel), level = sphere_level(grid, d);
         float alpha = sphere_occlusion(grid, centre, direction, max(level, float(skip)));
+        SEE_STEP(centre, t, max(d, exp2(float(skip)) * grid.voxel), alpha, max(level, float(skip)));
         if (float(skip) > level) {
             if (alpha <= 0.0) {
                 t += 0.5 * exp2(float(skip)) * grid.voxel;

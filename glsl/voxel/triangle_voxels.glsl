@@ -3,7 +3,11 @@
 // Visits exactly the voxels that each triangle overlaps (lib/triangle_box.glsl), without a rasterizer. Sixteen invocations
 // share a triangle and take the columns along its dominant axis in turn (so that none loops 65,536 times at 512³, where
 // some software drivers cut loops off). Alpha-tested materials are looked up at the voxel's middle.
-// Whoever includes this file defines visit_voxel, and calls visit_triangles from a group of 256.
+// Whoever includes this file defines visit_voxel (and SKIP_VOXEL, if some are left out), and calls visit_triangles from a
+// group of 256.
+#ifndef SKIP_VOXEL
+#define SKIP_VOXEL(voxel) false
+#endif
 #define SCENE_DRAWS
 #define SCENE_MATERIALS
 #define SCENE_GEOMETRY
@@ -104,7 +108,7 @@ void visit_triangles() {
         int from = max(int(floor(depth - reach)), low[axis]), to = min(int(floor(depth + reach)), high[axis]);
         for (int d = from; d <= to; ++d) { // at most four: the slopes are at most 1
             ivec3 voxel = unproject(column, d, axis);
-            if (!triangle_overlaps_voxel(p[0], p[1], p[2], voxel)) continue;
+            if (SKIP_VOXEL(voxel) || !triangle_overlaps_voxel(p[0], p[1], p[2], voxel)) continue;
             if (cutoff >= 0.0 && alpha_at(materials[t.material], corners_of(t), p, vec3(voxel) + 0.5) < cutoff) continue;
             visit_voxel(t, voxel);
         }

@@ -123,7 +123,7 @@ Program& PassContext::use(const std::string& name) {
             set_uniform(program->id(), uniform, pass_.repeat_to);
         else if (auto value = frame_constant(frame(), uniform.name))
             set_uniform(program->id(), uniform, *value);
-        else if (const Parameter* p = node.parameters.find(uniform.name))
+        else if (const Parameter* p = graph_.model_->parameter_of(node, uniform.name))
             set_uniform(program->id(), uniform, p->value);
     }
 

@@ -86,7 +86,7 @@ std::vector<std::string> Graph::check_interface(const PassNode& node, const Plan
     constants.insert(constants.end(), node.description->constants.begin(), node.description->constants.end());
     for (const UniformInfo& uniform : interface.uniforms) {
         bool known = std::find(constants.begin(), constants.end(), uniform.name) != constants.end();
-        const Parameter* parameter = node.parameters.find(uniform.name);
+        const Parameter* parameter = model_->parameter_of(node, uniform.name);
         auto constant = frame_constant(FrameConstants{}, uniform.name);
         if (constant && !uniform_takes(uniform.type, *constant)) {
             problems.push_back(fmt::format("uniform '{}' is a constant of the frame, of another type (lib/frame.glsl "

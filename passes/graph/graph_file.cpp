@@ -261,6 +261,7 @@ NodeEntry read_node(const json& value, const std::string& where, ErrorList& erro
     node.id = reader.text("id", node.type);
     node.shader = reader.text("shader");
     node.enabled = reader.flag("enabled", true);
+    node.params_of = reader.text("params_of");
     node.needs = reader.expression("needs", "");
     std::vector<std::string> types;
     for (const PassType& type : pass_types())

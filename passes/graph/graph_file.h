@@ -11,7 +11,7 @@
 //     "passes": [ { "id": "blur", "type": "compute", "shader": "blur.comp", "params": {"radius": 3},
 //                   "bind": {"blur.source": "out.direct", "blur.target": {"resource": "blur.half", "mip":
 //                   "iteration"}}, "dispatch": "blur.half", "repeat": {"over": "mips", "of": "blur.half", "from": 1},
-//                   "enabled": true, "needs": "emissive_materials + environment" } ] }
+//                   "params_of": "other", "enabled": true, "needs": "emissive_materials + environment" } ] }
 
 #include "core/parameters.h"
 #include "graph/resource.h"
@@ -48,6 +48,7 @@ struct DispatchEntry {
 struct NodeEntry {
     std::string id, type, shader;
     std::map<std::string, std::string> params_json; ///< value as JSON text
+    std::string params_of; ///< an earlier pass: shader parameters that it has too are its own, not this pass's
     std::map<std::string, BindEntry> bind;
     DispatchEntry dispatch;
     RepeatEntry repeat;

@@ -61,6 +61,8 @@ GraphModel::GraphModel(GraphFile file) : file_(std::move(file)) {
         for (const ProgramEntry& program : node->description->programs) {
             node->programs.push_back(std::make_unique<Program>(program.name, program.stages, glsl_folder()));
         }
+        if (!entry.params_of.empty() && !find_node(entry.params_of))
+            errors.add(fmt::format("pass '{}': params_of names no earlier pass: '{}'", entry.id, entry.params_of));
         scan(*node);
         apply_file_values(*node, errors);
         nodes_.push_back(std::move(node));
@@ -87,9 +89,11 @@ Defines GraphModel::static_values(const PassNode& node) {
 
 void GraphModel::scan(PassNode& node, const Defines& formats) {
     std::vector<std::string> names;
+    const PassNode* shared = find_node(node.entry.params_of);
     for (const auto& program : node.programs) {
         program->scan(formats, static_values(node));
         for (const ParameterInfo& info : program->parameters()) {
+            if (!info.is_static && shared && shared->parameters.find(info.name)) continue;
             node.parameters.declare_shader_parameter(info);
             names.push_back(info.name);
         }
@@ -153,6 +157,13 @@ static std::pair<std::string, std::string> split_name(const std::string& name) {
 }
 
 Parameter& GraphModel::parameter(const std::string& name) {
+    if (name.find('.') == std::string::npos) {
+        for (const std::string& full : parameter_names()) {
+            if (full.ends_with("." + name))
+                throw Error(fmt::format("'{}' names no parameter: it is written pass.parameter (did you mean '{}'?)",
+                                        name, full));
+        }
+    }
     auto [id, parameter] = split_name(name);
     ParameterSet* set = nullptr;
     if (id == "graph")
@@ -164,6 +175,12 @@ Parameter& GraphModel::parameter(const std::string& name) {
         throw Error(fmt::format("there is no parameter '{}' in graph '{}'{}", name, file_.name,
                                 did_you_mean(name, parameter_names())));
     return *found;
+}
+
+const Parameter* GraphModel::parameter_of(const PassNode& node, const std::string& name) const {
+    if (const Parameter* own = node.parameters.find(name)) return own;
+    const PassNode* shared = find_node(node.entry.params_of);
+    return shared ? shared->parameters.find(name) : nullptr;
 }
 
 void GraphModel::set(const std::string& name, const std::string& text, ParameterOrigin origin) {

@@ -35,10 +35,19 @@ class GraphModel {
     /// "id.parameter" (graph.parameter for the graph's own) from text. Throws Error naming the nearest.
     void set(const std::string& name, const std::string& text, ParameterOrigin origin);
     Parameter& parameter(const std::string& name);
+    /// What a uniform of the pass takes its value from: its own parameter, or that of the pass that `params_of` names.
+    const Parameter* parameter_of(const PassNode& node, const std::string& name) const;
     /// The value of a scalar parameter ("id.name", "graph.name" or the bare name of one of the graph's own).
     std::optional<double> number(const std::string& name) const;
     /// Every parameter as "id.name".
     std::vector<std::string> parameter_names() const;
+
+    /// The passes that are off and without which this one has not all that it reads, itself included if it is off.
+    std::vector<std::string> off_before(const std::string& id) const;
+    /// The passes that are off and without which nothing makes this resource.
+    std::vector<std::string> off_for(const std::string& resource) const;
+    /// Switches a pass; with it come on those that are off and make what it reads. Throws Error naming the nearest.
+    void switch_pass(const std::string& id, bool on);
 
     /// Reads a node's shader files again; its //! parameters and slots follow.
     void scan(PassNode& node, const Defines& formats = {});
@@ -57,6 +66,8 @@ class GraphModel {
 
   private:
     void apply_file_values(PassNode& node, ErrorList& errors);
+    bool is_made(const std::string& resource) const;
+    std::vector<std::string> off_among(std::vector<const PassNode*> open) const;
 
     GraphFile file_;
     ParameterSet graph_parameters_;

@@ -59,9 +59,8 @@ class Planner {
 
     // --- declaring -------------------------------------------------------------------------------------------------
     ResourceDeclaration* find(const std::string& name) {
-        for (ResourceDeclaration& resource : resources_) {
+        for (ResourceDeclaration& resource : resources_)
             if (resource.name == name) return &resource;
-        }
         return nullptr;
     }
 
@@ -188,6 +187,7 @@ class Planner {
 
     /// It had readers, all of them declined, and nothing of it is an output.
     bool unread(const Declared& pass) const {
+        if (!pass.node->entry.enabled) return false; // a person switched it on, to look at what it makes
         bool had_readers = false;
         for (size_t i = 0; i < pass.uses.size(); ++i) {
             if (!pass.uses[i].writes) continue;
@@ -216,9 +216,8 @@ class Planner {
                 changed = changed || !pass.declined.empty();
             }
         }
-        for (const Declared& pass : passes_) {
+        for (const Declared& pass : passes_)
             if (!pass.declined.empty()) plan_.declined.push_back({pass.node->id(), pass.declined});
-        }
     }
 
     // --- sizes -----------------------------------------------------------------------------------------------------

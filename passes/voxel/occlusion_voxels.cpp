@@ -12,12 +12,17 @@ class OcclusionVoxelsPass : public Pass {
     void describe(PassDescription& description) override {
         description.program("raster", {"voxel/occlusion.vert", "voxel/occlusion.geom", "voxel/occlusion.frag"});
         description.program("compute", {"voxel/occlusion.comp"});
+        description.program("bits", {"voxel/occlusion_bits.comp"});
+        description.program("brick_mip", {"voxel/brick_mip.comp"});
         description.constant("resolution_of_grid");
         ParameterSet& p = description.parameters;
         p.add("resolution", resolution_, {8, 512}, "voxels", "along each side of the grid; a power of two");
         p.add_choice("route", route_, {"raster", "compute"},
                      "raster: dominant-axis projection, as published; compute: every voxel that a triangle overlaps, "
                      "without a rasterizer");
+        p.add_choice("storage", storage_, {"bytes", "bits"},
+                     "bytes: one a voxel, as published; bits: one a voxel, eight to a byte, written in eight rounds "
+                     "(route compute)");
         p.add("directional_leaves", directional_leaves_,
               "six volumes, one for each way that a surface may face, so that a surface does not block what leaves it");
     }
@@ -27,15 +32,24 @@ class OcclusionVoxelsPass : public Pass {
             throw Error(fmt::format("resolution {} is no power of two: {} and {} are the nearest", resolution_,
                                     std::bit_floor(unsigned(resolution_)), std::bit_ceil(unsigned(resolution_))));
         int slices = resolution_ * (directional_leaves_ ? 6 : 1);
+        bool bits = storage_ == Storage::bits;
+        if (bits && route_ == Route::raster) throw Error("storage = bits needs route = compute");
+        int base = bits ? resolution_ / 2 : resolution_; // bits: the first mip is the finest with a byte a voxel
+        slices = bits ? slices / 2 : slices;
         ResourceDeclaration& voxels =
-            d.creates("voxels.occlusion", ResourceKind::texture_3d, "r8", {resolution_, resolution_, slices});
-        voxels.mips = std::to_string(std::bit_width(unsigned(resolution_)));
+            d.creates("voxels.occlusion", ResourceKind::texture_3d, "r8", {base, base, slices});
+        voxels.mips = std::to_string(std::bit_width(unsigned(base)));
         if (route_ == Route::raster) {
             d.uses("raster");
-        } else {
-            d.creates_buffer("voxels.draw_starts", std::to_string(d.facts.instances + 1), 4);
-            d.uses("compute");
-            d.writes("voxels.draw_starts", Usage::storage);
+            return;
+        }
+        d.creates_buffer("voxels.draw_starts", std::to_string(d.facts.instances + 1), 4);
+        d.uses(bits ? "bits" : "compute");
+        d.writes("voxels.draw_starts", Usage::storage);
+        if (bits) {
+            d.creates("voxels.bricks", ResourceKind::texture_3d, "r8ui", {base, base, slices});
+            d.uses("brick_mip");
+            d.repeat(0, 8);
         }
     }
 
@@ -57,13 +71,20 @@ class OcclusionVoxelsPass : public Pass {
         buffer.update(0, starts.size() * sizeof(uint32_t), starts.data());
         constexpr int k_lanes = 16, k_row = 65536; // as in voxel/occlusion.comp
         int triangles = int(starts.back());
-        c.dispatch("compute", {std::min(triangles, k_row) * k_lanes, (triangles + k_row - 1) / k_row, 1});
+        c.dispatch(storage_ == Storage::bits ? "bits" : "compute",
+                   {std::min(triangles, k_row) * k_lanes, (triangles + k_row - 1) / k_row, 1});
+        if (storage_ == Storage::bits && c.iteration == 7) {
+            glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+            c.dispatch("brick_mip", c.texture("voxels.occlusion").desc().size);
+        }
     }
 
   private:
     enum class Route { raster, compute };
+    enum class Storage { bytes, bits };
     int resolution_ = 128;
     Route route_ = Route::raster;
+    Storage storage_ = Storage::bytes;
     bool directional_leaves_ = false;
 };
 

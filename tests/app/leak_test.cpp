@@ -99,3 +99,24 @@ TEST_F(Leaks, NothingOutlivesTheSession) {
     session.reset();
     EXPECT_EQ(live_objects().total(), 0);
 }
+
+/// Empty layers are found on the GPU and counters come back behind a fence: a steady frame makes nothing anew.
+TEST_F(Leaks, SteadyFramesOfLayeredMaps) {
+    for (const char* graph_name : {"lrsm", "lrsm_tuned"}) {
+        SessionOptions options = session->options();
+        options.graph = graph_name;
+        options.sets = {{"rsm.resolution", "64"}, {"occlusion_voxels.resolution", "16"}};
+        Session steady(options);
+        auto render = [&](int count) {
+            for (int i = 0; i < count; ++i, steady.advance())
+                steady.render();
+        };
+        render(8);
+        int objects = live_objects().total();
+        render(30);
+        EXPECT_EQ(live_objects().total(), objects) << graph_name;
+        EXPECT_FALSE(steady.graph().counters().empty()) << graph_name << ": counters arrive without being waited for";
+        for (const GraphProblem& problem : steady.graph().problems())
+            ADD_FAILURE() << graph_name << ": " << problem.error.text();
+    }
+}

@@ -47,6 +47,18 @@ class Readme(unittest.TestCase):
         self.assertIn(re.sub(r"\s+", " ", shown),
                       re.sub(r"[ \t]+", " ", (self.root / "glsl/user/glow.comp").read_text()))
 
+    def test_commands_without_a_window(self):
+        (block,) = [block for block in blocks("sh") if "app/run params" in block]
+        lines = block.strip().splitlines()
+        self.assertGreater(len(lines), 5)
+        for line in lines:
+            words = shlex.split(line, comments=True)
+            self.assertEqual(words[0], "app/run", line)
+            run = self.bounce(words[1:])
+            self.assertEqual(run.returncode, 0, line + "\n" + run.stdout + run.stderr)
+        made = {path.name for path in self.folder.iterdir() if path.is_file()}
+        self.assertEqual(made, {"cornell.png", "cornell.exr", "normal.exr", "truth.exr", *(f"frame_{i:04}.png" for i in range(24))})
+
     def test_commands_exist(self):
         # Every subcommand that the README names is one that the program has.
         text = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -7,7 +7,7 @@ import resource
 import subprocess
 import unittest
 
-from program import SMALL, ProgramTest, exr_header, png_pixel
+from program import PROGRAM, SMALL, ProgramTest, exr_header, png_pixel
 
 
 class Refusals(ProgramTest):
@@ -19,8 +19,12 @@ class Refusals(ProgramTest):
         self.assert_refused(self.render("--graph", "driect"), "there is no graph 'driect' (did you mean 'direct'?)")
         self.assert_refused(self.render("--set", "tonemap.exposre=1"), "tonemap.exposre", "did you mean 'tonemap.exposure'?")
         self.assert_refused(self.render("--set", "tonmap.exposure=1"), "did you mean 'tonemap.exposure'?")
+        self.assert_refused(self.render("--set", "exposure=1"), "did you mean 'tonemap.exposure'?")
         self.assert_refused(self.render("--resource", "gbuffer.nromal"), "gbuffer.nromal", "did you mean 'gbuffer.normal'?")
         self.assert_refused(self.render("--resource", "gbuffer.emission"), "gbuffer.emission")
+
+        self.assert_refused(self.render("--enable", "emision"), "emision", "did you mean 'emission'?")
+        self.assert_refused(self.render("--disable", "tonemapp"), "did you mean 'tonemap'?")
 
     def test_values_that_cannot_be(self):
         self.assert_refused(self.render("--set", "tonemap.exposure=17"), "[-16, 16]")
@@ -34,8 +38,10 @@ class Refusals(ProgramTest):
         self.assert_refused(self.render("--device", "99"), "device 99")
 
     def test_options_that_are_not_there(self):
-        self.assert_refused(self.render("--grahp", "direct"), "--grahp")
-        self.assert_refused(self.run_program("redner"), "redner")
+        self.assert_refused(self.render("--grahp", "direct"), "'bounce render' has no option '--grahp' (did you mean '--graph'?)")
+        self.assert_refused(self.render("--nonsense=1"), "no option '--nonsense'", "bounce render --help")
+        self.assert_refused(self.run_program("redner", "cornell"), "there is no command 'redner' (did you mean 'render'?)")
+        self.assert_refused(self.render("one_more"), "no further argument", "'one_more'")
         self.assert_refused(self.run_program("render"), "shot")
         self.assert_refused(self.run_program("render", self.shot), "--output")
 
@@ -69,6 +75,13 @@ class Refusals(ProgramTest):
             self.assert_refused(result, name, leaves=[name])
             self.assertEqual((self.out / name).read_bytes(), b"what was there before")
             (self.out / name).unlink()
+
+    def test_a_table_that_cannot_be_written(self):
+        with open("/dev/full", "w") as full:
+            result = subprocess.run([PROGRAM, "info", str(self.shot)], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60,
+                                    env=self.environment())
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("No space left", result.stderr)
 
     def test_shots_and_graphs_that_are_broken(self):
         self.shot.write_text("{")
@@ -129,6 +142,16 @@ class Pictures(ProgramTest):
         folder.mkdir()
         self.render(folder / "x.png")
         self.assertTrue((folder / "x.png").exists(), "a % in a folder's name numbers nothing")
+
+    def test_a_resource_of_a_pass_that_is_off_switches_it_on(self):
+        small = ("--graph", "lrsm_tuned", "--set", "occlusion_voxels.resolution=32", "--set", "rsm.resolution=64", "--set", "gather.most_steps=32")
+        self.render("x.png", *small, "--set", "inspect.pixel=0.5,0.9", "--resource", "debug.cones_view")
+        self.render("y.png", *small, "--set", "inspect.pixel=0.5,0.9", "--resource", "debug.cones_view", "--enable", "view_cones")
+        self.assertEqual((self.out / "x.png").read_bytes(), (self.out / "y.png").read_bytes())
+        result = self.render("z.png", *small, "--enable", "view_cubes", "--disable", "emission")
+        self.assertIn("view_cubes", result.stdout)
+        self.assertIn("inspect: not run, switched off", result.stdout)
+        self.assertIn("emission: not run, switched off", result.stdout)
 
     def test_timings(self):
         result = self.render("x.png", "--timings", "t.json", "--frames", "3")

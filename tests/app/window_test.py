@@ -103,7 +103,17 @@ class Window(ProgramTest):
         time.sleep(0.1)
 
     def place(self, widget, share=0.5):
-        """A point of a widget: at a share of its width, half its height."""
+        """A point of a widget: at a share of its width, half its height. One of a pass that lies below the panel's edge is
+        wheeled into view."""
+        pass_id = widget.split(".")[0]
+        for _ in range(20):
+            state = self.state()
+            others = [rect for name, rect in state["widgets"].items() if name.split(".")[0] in ("direct", "shadow_maps", "gbuffer")]
+            if widget in state["widgets"] or pass_id != "tonemap" or not others:
+                break
+            x0, y0, x1, y1 = others[0]
+            self.move(round((x0 + x1) / 2), round((y0 + y1) / 2))
+            self.input("click", 5)
         x0, y0, x1, y1 = self.wait(lambda state: widget in state["widgets"], f"the widget {widget}")["widgets"][widget]
         return round(x0 + share * (x1 - x0)), round((y0 + y1) / 2)
 

@@ -90,7 +90,8 @@ TEST_F(Leak, OfASealedRoomAgainstTheThicknessOfItsWalls) {
             double leak = seen(room("closed", thickness * voxel, false), variant.graph, variant.sets) / open;
             line += fmt::format("  {} voxels {:.4f}", thickness, leak);
             RecordProperty(fmt::format("{}_{}", variant.name, thickness), fmt::format("{:.6f}", leak));
-            if (thickness >= 1) EXPECT_LE(leak, variant.most) << variant.name << ", " << thickness << " voxels";
+            if (thickness < 1) continue;
+            EXPECT_LE(leak, variant.most) << variant.name << ", " << thickness << " voxels";
         }
         fmt::print("    leak of {:<22}{}\n", variant.name, line);
     }

@@ -51,6 +51,21 @@ TEST_F(GraphFileErrors, NoVersionNoPassesTwiceTheSameId) {
         AllOf(HasSubstr("two passes have the id 'x'"), HasSubstr("cannot have the id 'graph'")));
 }
 
+TEST_F(GraphFileErrors, ParametersAreSharedWithAnEarlierPassOnly) {
+    shader("x.comp", "uniform float width = 1.0; //! [0, 2] how wide");
+    auto model = [&](const std::string& passes) {
+        return GraphModel(load_graph_file(graph_file("\"passes\": [" + passes + "]")));
+    };
+    const std::string a = R"({"id":"a","type":"compute","shader":"x.comp"})",
+                      b = R"({"id":"b","type":"compute","shader":"x.comp","params_of":"a"})";
+    GraphModel shared = model(a + "," + b);
+    shared.set("a.width", "1.5", ParameterOrigin::panel);
+    EXPECT_EQ(std::get<float>(shared.parameter_of(*shared.find_node("b"), "width")->value), 1.5f);
+    EXPECT_THAT(error_of([&] { shared.set("b.width", "1", ParameterOrigin::panel); }),
+                HasSubstr("there is no parameter 'b.width'"));
+    EXPECT_THAT(error_of([&] { model(b + "," + a); }), HasSubstr("pass 'b': params_of names no earlier pass: 'a'"));
+}
+
 TEST_F(GraphFileErrors, AGraphThatIsNotThereNamesTheNearest) {
     graph_file(R"("passes": [])");
     EXPECT_EQ(error_of([] { find_graph("gg"); }), "there is no graph 'gg' (did you mean 'g'?)");

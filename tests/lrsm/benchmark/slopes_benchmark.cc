@@ -1,6 +1,6 @@
 // How the stages of lrsm_tuned grow: the gather with pixels, the layers with texels of the reflective shadow map, the
-// occlusion voxels with voxels. Google Benchmark fits a line through the times (BigO: the cost of one; RMS: how far from a
-// line they lie). Times are what the graph's own timers tell, medians of a few frames.
+// occlusion voxels with voxels. Google Benchmark fits a line through the times (BigO: the cost of one; RMS: how far
+// from a line they lie). Times are what the graph's own timers tell, medians of a few frames.
 #include "app/hosts/headless.h"
 #include "app/session.h"
 
@@ -47,16 +47,33 @@ void layers_by_texels(benchmark::State& state) {
 void occlusion_by_voxels(benchmark::State& state) {
     int side = int(state.range(0));
     for (auto _ : state)
-        state.SetIterationTime(
-            measure(64, "occlusion_voxels.resolution", side, {"occlusion_voxels", "voxel_mips"}) * 1e-3);
+        state.SetIterationTime(measure(64, "occlusion_voxels.resolution", side, {"occlusion_voxels", "voxel_mips"}) *
+                               1e-3);
     state.SetComplexityN(int64_t(side) * side * side);
 }
 
 } // namespace
 
-BENCHMARK(gather_by_pixels)->DenseRange(64, 256, 64)->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond)->Complexity(benchmark::oN);
-BENCHMARK(layers_by_texels)->RangeMultiplier(2)->Range(128, 1024)->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond)->Complexity(benchmark::oN);
-BENCHMARK(occlusion_by_voxels)->RangeMultiplier(2)->Range(32, 256)->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond)->Complexity(benchmark::oN);
+BENCHMARK(gather_by_pixels)
+    ->DenseRange(64, 256, 64)
+    ->UseManualTime()
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity(benchmark::oN);
+BENCHMARK(layers_by_texels)
+    ->RangeMultiplier(2)
+    ->Range(128, 1024)
+    ->UseManualTime()
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity(benchmark::oN);
+BENCHMARK(occlusion_by_voxels)
+    ->RangeMultiplier(2)
+    ->Range(32, 256)
+    ->UseManualTime()
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity(benchmark::oN);
 
 int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
