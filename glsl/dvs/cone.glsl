@@ -17,7 +17,7 @@ uniform bool from_previous;     // the radiance volume is dvs_previous
 #endif
 uniform sampler3D dvs_directional; // six tiles; from the base level on, or from half the resolution
 
-uniform int direction_weights = 0;    //! {squared, absolute} weights of the three volumes: d_k² sums to 1 (as usual); |d_k| is how directional leaves add up
+uniform int direction_weights = 0;    //! {squared, absolute} weights of the three volumes: d_k² sums to 1 (as usual); their absolute values are how directional leaves add up
 uniform float ambient_decay = 0.1;    //! [0, 10] (1/voxel) λ, how fast occlusion fades with the cone's radius
 uniform bool hit_then_sample = false; //! the colour is looked up once a cone, where it is blocked
 uniform bool exact_hits = false;      //! hit_then_sample: the hit is found from voxel to voxel instead of by a thin cone
