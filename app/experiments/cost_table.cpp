@@ -131,7 +131,7 @@ CostTableMeasured measure_column(const CostTableFile& file, const CostTableColum
     for (int frame = 0; frame < warm_up + frames; ++frame) {
         if (frame > 0) session.advance();
         if (frame == warm_up) session.graph().forget_timings();
-        session.render();
+        session.render(true);
     }
     session.graph().finish_timings();
     for (const GraphProblem& problem : session.graph().problems())

@@ -106,7 +106,7 @@ ChartPoint measure_point(const PointTask& task, const std::function<void(const s
     for (int frame = 0; frame < task.warm_up + task.frames; ++frame) {
         if (frame > 0) session.advance();
         if (frame == task.warm_up) session.graph().forget_timings();
-        session.render();
+        session.render(true);
     }
     session.graph().finish_timings();
     for (const GraphProblem& problem : session.graph().problems())

@@ -248,6 +248,7 @@ RepeatEntry read_repeat(const json& value, ObjectReader& node, ErrorList& errors
     repeat.of = reader.text("of");
     repeat.count = reader.expression("count", "1");
     repeat.from = reader.expression("from", "0");
+    repeat.loop = reader.text("loop");
     if ((repeat.over == "mips" || repeat.over == "layers") && repeat.of.empty()) {
         reader.error("'of' is missing: the resource whose " + repeat.over + " are meant");
     }

@@ -10,8 +10,9 @@
 //                     "list.nodes": {"kind": "buffer", "count": "width*height*8", "stride": 16} },
 //     "passes": [ { "id": "blur", "type": "compute", "shader": "blur.comp", "params": {"radius": 3},
 //                   "bind": {"blur.source": "out.direct", "blur.target": {"resource": "blur.half", "mip":
-//                   "iteration"}}, "dispatch": "blur.half", "repeat": {"over": "mips", "of": "blur.half", "from": 1},
-//                   "params_of": "other", "enabled": true, "needs": "emissive_materials + environment" } ] }
+//                   "iteration"}}, "dispatch": "blur.half", "repeat": {"over": "mips", "of": "blur.half", "from": 1,
+//                   "loop": "name"}, "params_of": "other", "enabled": true, "needs": "emissive_materials + environment"
+//                   } ] }
 
 #include "core/parameters.h"
 #include "graph/resource.h"
@@ -37,6 +38,7 @@ struct RepeatEntry {
     std::string of;   ///< resource for mips and layers
     std::string count = "1";
     std::string from = "0";
+    std::string loop; ///< passes in a row that name the same one take their steps together
 };
 
 struct DispatchEntry {

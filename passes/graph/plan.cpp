@@ -100,6 +100,7 @@ class Planner {
         pass.counters = declaration.counters();
         pass.repeat_from = declaration.repeat_from;
         pass.repeat_to = declaration.repeat_to;
+        pass.loop = declaration.loop;
         for (SlotUse& use : pass.uses) {
             if (use.where.empty()) use.where = "pass '" + node.id() + "'";
             pass.targets.push_back(target_of(node, use.slot));
@@ -284,6 +285,7 @@ class Planner {
     void resolve_repeat(Declared& pass) {
         const RepeatEntry& repeat = pass.node->entry.repeat;
         if (repeat.over.empty()) return;
+        pass.loop = repeat.loop;
         NameLookup lookup = [&](const std::string& n) { return number(n); };
         doubtful_ = false;
         try {
@@ -330,6 +332,7 @@ class Planner {
             pass.programs = declared.programs;
             pass.repeat_from = declared.repeat_from;
             pass.repeat_to = declared.repeat_to;
+            pass.loop = declared.loop;
             for (size_t i = 0; i < declared.uses.size(); ++i) {
                 PlanSlot slot{declared.uses[i],    -1,        is_builtin(declared.uses[i].slot), glm::vec4(0),
                               declared.targets[i], plan_.size};

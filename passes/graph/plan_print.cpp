@@ -57,6 +57,7 @@ std::string plan_text(const GraphModel& model, const Plan& plan) {
             out += fmt::format(" ({}{})", node.entry.type, node.entry.shader.empty() ? "" : " " + node.entry.shader);
         if (pass.repeat_to - pass.repeat_from != 1)
             out += fmt::format(", steps {} … {}", pass.repeat_from, pass.repeat_to - 1);
+        if (!pass.loop.empty()) out += fmt::format(", in the loop '{}'", pass.loop);
         out += "\n";
         if (pass.barriers) out += "      barrier " + barrier_text(pass.barriers) + "\n";
         if (pass.step_barriers && pass.repeat_to - pass.repeat_from > 1)

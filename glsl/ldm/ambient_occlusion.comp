@@ -1,0 +1,43 @@
+// Ambient occlusion from the maps of a batch (LDM, Eq. 2 and 3), added up over the batches:
+//   AO(x) ≈ 2/N Σ V(x, ω_i)·cosθ_i,
+// over the N axes, each taken in the direction that leaves the surface. Red: V = 0 for any surface that is met; green: for
+// one within d_max; with obscurance, V grows with the distance to what is met instead: 1 − (1 − r/d_max)^p, r < d_max.
+#include "lib/frame.glsl"
+#include "ldm/trace.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+uniform sampler2D gbuffer_geometric_normal;
+uniform sampler2D gbuffer_normal;
+uniform sampler2D gbuffer_depth;
+uniform int iteration, repeat_from;
+layout(FORMAT_ldm_openness) uniform image2D ldm_openness; // Σ V·cosθ so far
+
+uniform float occlusion_distance = 0.1; //! [0.001, 10] d_max, as a share of the scene's diagonal
+uniform float obscurance = 0.0;         //! [0, 8] power p of the obscurance's fall with distance; 0: whatever lies within d_max occludes in full
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(ldm_openness);
+    if (any(greaterThanEqual(texel, size))) return;
+    ivec2 pixel = min((2 * texel + 1) * resolution / (2 * size), resolution - 1);
+    float depth = texelFetch(gbuffer_depth, pixel, 0).r;
+    vec2 sum = iteration > repeat_from ? imageLoad(ldm_openness, texel).rg : vec2(0.0);
+    if (depth > 0.0) {
+        vec3 x = world_position(pixel, depth);
+        vec3 n = normalize(texelFetch(gbuffer_normal, pixel, 0).xyz);
+        vec3 face = normalize(texelFetch(gbuffer_geometric_normal, pixel, 0).xyz);
+        float most = occlusion_distance * scene_diagonal;
+        int maps = batch_maps(iteration);
+        for (int slot = 0; slot < maps; ++slot) {
+            LdmView view = views[iteration + slot * ldm.batches];
+            float cosine = dot(n, view.direction), above = dot(face, view.direction);
+            if (cosine * above <= 0.0) continue; // the surface itself is in the way
+            vec2 both = ldm_trace(slot, view, x, face).distance;
+            float r = cosine > 0.0 ? both.y : both.x;
+            vec2 open = vec2(r < k_no_hit ? 0.0 : 1.0, r < most ? 0.0 : 1.0);
+            if (obscurance > 0.0 && r < most) open.g = 1.0 - pow(1.0 - r / most, obscurance);
+            sum += open * abs(cosine);
+        }
+    }
+    imageStore(ldm_openness, texel, vec4(sum, 0.0, 0.0));
+}
