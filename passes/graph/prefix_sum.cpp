@@ -12,9 +12,10 @@ void describe_prefix_sum(PassDescription& description) {
     description.constant("prefix_count");
 }
 
-void declare_prefix_sum(Declaration& d, int64_t count) {
-    d.creates_buffer("prefix.values", std::to_string(count + 1), 4).overwritten = true;
-    d.creates_buffer("prefix.sums", std::to_string(count / k_block + 1), 4).overwritten = true;
+void declare_prefix_sum(Declaration& d, const std::string& count) {
+    d.creates_buffer("prefix.values", "(" + count + ") + 1", 4).overwritten = true;
+    d.creates_buffer("prefix.sums", "floor((" + count + ") / " + std::to_string(k_block) + ") + 1", 4).overwritten =
+        true;
     d.uses("prefix_sum");
 }
 
