@@ -9,11 +9,6 @@
 
 namespace bounce {
 
-/// std430 mirror of LdmInfo in glsl/ldm/views.glsl.
-struct LdmInfo {
-    int32_t maps, resolution, batches, slots, heads, node_words, capacity, arrays;
-};
-
 class LayeredDepthMapsPass : public Pass {
   public:
     void describe(PassDescription& description) override {
