@@ -44,7 +44,9 @@ struct Route {
     const char* name;
     Sets sets;
 };
-const Route k_routes[] = {{"raster", {}}};
+const Route k_routes[] = {{"raster", {}},
+                          {"compute", {{"ldm.route", "compute"}}},
+                          {"arrays", {{"ldm.route", "compute"}, {"ldm.storage", "arrays"}}}};
 
 class LayeredDepthMaps : public LdmTest {
   protected:
@@ -153,10 +155,68 @@ TEST_F(LayeredDepthMaps, FollowWhatMoves) {
     }
 }
 
+/// A sheet cut into triangles whose corners lie on texels' centres, and whose edges go through many: each centre
+/// belongs to one triangle alone, on edges and corners too.
+TEST_F(LayeredDepthMaps, CoverEachCentreOfASheetOnce) {
+    constexpr int k_side = 80;
+    // As ldm_view fits a map to the box from −1 to 1.
+    constexpr double k_texel = 2 * (1 + 0.02 / k_side) / k_side;
+    for (int spacing : {4, 20}) {
+        MadeScene made;
+        uint32_t random = 7;
+        std::vector<std::vector<glm::vec3>> grid;
+        for (int i = 0; i * spacing < k_side; ++i) {
+            grid.emplace_back();
+            for (int k = 0; k * spacing < k_side; ++k) {
+                auto place = [&](int cell) {
+                    random = random * 1664525u + 1013904223u;
+                    int texel = cell * spacing + (spacing == 4 ? int(random >> 16) % 3 - 1 : 0);
+                    if (cell == 0) return -1.0;
+                    if ((cell + 1) * spacing >= k_side) return 1.0;
+                    return (texel + 0.5 - k_side / 2) * k_texel;
+                };
+                double x = place(i), y = place(k);
+                grid.back().emplace_back(float(x), float(y), 0.0f);
+            }
+        }
+        for (size_t i = 0; i + 1 < grid.size(); ++i) {
+            for (size_t k = 0; k + 1 < grid[i].size(); ++k) {
+                glm::vec3 a = grid[i][k], b = grid[i + 1][k], c = grid[i + 1][k + 1], d = grid[i][k + 1];
+                // Both ways of winding and of cutting.
+                if ((i + k) % 2)
+                    made.triangle(a, b, c).triangle(a, d, c);
+                else
+                    made.triangle(b, a, d).triangle(b, c, d);
+            }
+        }
+        made.triangle({-1, -1, 1}, {-0.999f, -1, 1}, {-1, -0.999f, 1}); // some depth
+        for (const Route& route : k_routes) {
+            Sets sets = route.sets;
+            sets.insert(sets.end(), {{"ldm.maps", "1"}, {"ldm.resolution", std::to_string(k_side)}});
+            SceneRunner run(made.scene, {}, graph_file(k_maps_alone), sets);
+            whole_frame(run);
+            LdmLists lists(run);
+            EXPECT_NEAR(lists.views[0].texel.x, k_texel, 1e-6);
+            int wrong = 0, on_edges = 0;
+            LdmOracle oracle(run.scene, run.state, lists.views[0], k_side);
+            for (int y = 1; y < k_side - 1; ++y) {
+                for (int x = 1; x < k_side - 1; ++x) {
+                    wrong += lists.list(0, x, y).size() != 1;
+                    on_edges += oracle.at(x, y).excluded;
+                }
+            }
+            EXPECT_EQ(wrong, 0) << route.name << ", " << spacing;
+            EXPECT_GT(on_edges, spacing == 4 ? 700 : 200) << "else nothing was tested";
+        }
+    }
+}
+
 /// Whatever order the fragments come in.
 TEST_F(LayeredDepthMaps, AreTheSameInEachOfAHundredBuilds) {
     for (const Route& route : k_routes) {
         for (const char* nodes : {"depth", "surface"}) {
+            if (route.name == std::string("arrays") || (route.name == std::string("compute") && nodes[0] == 'd'))
+                continue; // the rest is slower, and goes through the same code
             Sets sets = route.sets;
             sets.insert(sets.end(), {{"ldm.maps", "6"}, {"ldm.resolution", "32"}, {"ldm.nodes", nodes}});
             SceneRunner run(slivers(), {}, graph_file(k_maps_alone), sets);
@@ -240,5 +300,69 @@ TEST_F(LayeredDepthMaps, InBatchesGiveTheSameOcclusion) {
             EXPECT_GT(mean, 0.5) << part;
             EXPECT_LT(mean, 0.97) << part;
         }
+    }
+}
+
+/// Nodes that hold the surface: the colour that scatters, from both routes.
+TEST_F(LayeredDepthMaps, HoldTheAlbedoOfTheirSurface) {
+    Scene scene = blocks();
+    for (Material& material : scene.materials)
+        if (material.base_colour.x == 0.2f) material.metallic = 0.75f; // the slab
+    for (const Route& route : k_routes) {
+        Sets sets = route.sets;
+        sets.insert(sets.end(),
+                    {{"ldm.maps", "6"}, {"ldm.resolution", "32"}, {"ldm.tilted", "true"}, {"ldm.nodes", "surface"}});
+        SceneRunner run(scene, {}, graph_file(k_maps_alone), sets);
+        whole_frame(run);
+        LdmLists lists(run);
+        int n = lists.info.resolution, compared = 0, wrong = 0;
+        for (int map = 0; map < lists.info.maps; ++map) {
+            // The floor is the only thing below y = 0.
+            const LdmView& view = lists.views[size_t(map)];
+            for (int i = 0; i < n * n; ++i) {
+                for (const LdmFragment& f : lists.list(map, i % n, i / n)) {
+                    // Where it is: the maps' axes are at right angles.
+                    glm::dvec3 right(view.to_x), up(view.to_y), along(view.to_z);
+                    glm::dvec3 x = right / glm::dot(right, right) * (i % n + 0.5 - view.to_x.w) +
+                                   up / glm::dot(up, up) * (i / n + 0.5 - view.to_y.w) +
+                                   along / glm::dot(along, along) * (double(f.depth) - view.to_z.w);
+                    bool floor = std::abs(x.y) < 1e-3 && x.z > 1.45, slab = x.y > 0.69 && x.z < 0.4 && x.x > -0.95;
+                    if (!floor && !slab) continue;
+                    glm::vec3 colour = floor ? glm::vec3(0.8f, 0.4f, 0.2f) : 0.25f * glm::vec3(0.2f, 0.6f, 0.4f);
+                    ++compared;
+                    for (int channel = 0; channel < 3; ++channel)
+                        wrong += std::abs(float(f.albedo >> (8 * channel) & 255u) - 255 * colour[channel]) > 1.01f;
+                }
+            }
+        }
+        EXPECT_GT(compared, 500) << route.name;
+        EXPECT_EQ(wrong, 0) << route.name;
+    }
+}
+
+TEST_F(LayeredDepthMaps, AsArraysGiveTheSameOcclusionBytes) {
+    for (const char* nodes : {"depth", "plane"}) {
+        std::vector<float> occlusion[2];
+        for (int arrays = 0; arrays < 2; ++arrays) {
+            SceneRunner run(blocks(), {}, graph_file(k_occlusion),
+                            {{"ldm.maps", "40"},
+                             {"ldm.resolution", "48"},
+                             {"ldm.tilted", "true"},
+                             {"ldm.nodes", nodes},
+                             {"ambient_occlusion.node_planes", nodes[0] == 'p' ? "true" : "false"},
+                             {"ldm.storage", arrays ? "arrays" : "lists"}},
+                            {48, 40});
+            run.camera = towards_blocks();
+            whole_frame(run);
+            occlusion[arrays] = run.read("out.ambient_occlusion");
+            std::vector<float> near = run.read("out.ambient_occlusion_dmax");
+            occlusion[arrays].insert(occlusion[arrays].end(), near.begin(), near.end());
+            LdmLists lists(run);
+            EXPECT_EQ(lists.info.arrays, arrays);
+            if (arrays) { // one after the other without gaps: 4 bytes a fragment less than with links
+                EXPECT_EQ(int64_t(lists.words[size_t(lists.info.heads)]), counter(run, "fragments of all maps"));
+            }
+        }
+        EXPECT_EQ(occlusion[0], occlusion[1]) << nodes;
     }
 }
