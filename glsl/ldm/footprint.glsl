@@ -5,7 +5,16 @@
 //   M = 2/(D_u·(D_v × n)) · [D_v × n; n × D_u; a·n].
 // The first two rows map the ellipse inscribed in the footprint to the unit circle. The third weighs the distance off the
 // footprint's plane; a is a length there, so it is given as 2·â·n/√A.
+#include "lib/frame.glsl"
 #include "ldm/photon.glsl"
+
+uniform vec2 splat_size; // of the picture that is splatted to; may be smaller than the pixels' own
+
+// The pixel whose surface stands for a texel of that picture.
+ivec2 splat_pixel(ivec2 texel) {
+    ivec2 size = ivec2(splat_size);
+    return min((2 * texel + 1) * resolution / (2 * size), resolution - 1);
+}
 
 uniform float plane_weight = 1.0; //! [0, 8] â: how fast a footprint ends off its plane (in half lengths √A/2)
 

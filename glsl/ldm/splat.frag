@@ -10,7 +10,7 @@ flat in int photon_index;
 layout(location = 0) out vec4 irradiance; // E/π
 
 void main() {
-    ivec2 size = textureSize(gbuffer_depth, 0), pixel = ivec2(gl_FragCoord.xy);
+    ivec2 pixel = splat_pixel(ivec2(gl_FragCoord.xy));
     float depth = texelFetch(gbuffer_depth, pixel, 0).r;
     if (depth <= 0.0) discard;
     Photon photon = stored[photon_index];

@@ -3,6 +3,8 @@
 #include "lib/frame.glsl"
 #include "ldm/photon.glsl"
 
+uniform vec2 splat_size; // of the picture that is splatted to
+
 layout(local_size_x = 256) in;
 
 layout(std430) readonly buffer photons_stored { Photon stored[]; };
@@ -24,10 +26,11 @@ void main() {
             vec2 at = vec2(corner & 1, corner >> 1) - 0.5;
             vec3 p = project_to_pixel(photon.position + at.x * photon.du.xyz + at.y * photon.dv.xyz);
             if (p.z <= near_plane) least = vec2(-1.0e9), most = vec2(1.0e9); // part of it is behind the camera
+            p.xy *= splat_size / vec2(resolution);
             least = min(least, p.xy), most = max(most, p.xy);
         }
         ivec2 from = max(ivec2(floor(max(least, vec2(-1.0)))), ivec2(0));
-        ivec2 to = min(ivec2(floor(min(most, vec2(resolution)))), resolution - 1);
+        ivec2 to = min(ivec2(floor(min(most, splat_size))), ivec2(splat_size) - 1);
         if (all(lessThanEqual(from, to))) low = uvec2(from), high = uvec2(to);
         boxes[i] = uvec2(low.x | low.y << 16, high.x | high.y << 16);
     }

@@ -23,9 +23,9 @@ bool meets_tile(uvec2 box) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy), pixel = splat_pixel(texel);
     uint lane = gl_LocalInvocationIndex, count = commands[7], chunk_count = commands[4];
-    bool inside = all(lessThan(pixel, resolution));
+    bool inside = all(lessThan(texel, ivec2(splat_size)));
     float depth = inside ? texelFetch(gbuffer_depth, pixel, 0).r : 0.0;
     vec3 x = depth > 0.0 ? world_position(pixel, depth) : vec3(0.0);
     vec3 normal = depth > 0.0 ? texelFetch(gbuffer_normal, pixel, 0).xyz : vec3(0.0), sum = vec3(0.0);
@@ -60,5 +60,5 @@ void main() {
         }
         barrier();
     }
-    if (inside) imageStore(photons_irradiance, pixel, imageLoad(photons_irradiance, pixel) + vec4(sum, 0.0));
+    if (inside) imageStore(photons_irradiance, texel, imageLoad(photons_irradiance, texel) + vec4(sum, 0.0));
 }

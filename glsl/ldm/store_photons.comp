@@ -13,12 +13,12 @@ uniform int batch;
 uniform int emitter_count;
 
 void main() {
-    int emitter = int(gl_GlobalInvocationID.x), slot = int(gl_GlobalInvocationID.y);
+    int emitter = int(gl_GlobalInvocationID.x), slot = int(gl_GlobalInvocationID.y), path = int(gl_GlobalInvocationID.z);
     if (emitter >= emitter_count || slot >= batch_maps(batch)) return;
-    int at = slot * emitter_count + emitter;
+    int at = (path * ldm.slots + slot) * emitter_count + emitter;
     uint place = places[at];
     if (fates[at] != k_fate_arrived || place >= uint(stored.length())) return; // no room: counted by finish_photons.comp
     Photon photon;
-    photon_arrival(emitters[emitter], slot, views[batch + slot * ldm.batches], photon);
+    photon_arrival(emitters[emitter], batch, slot, path, photon);
     stored[place] = photon;
 }

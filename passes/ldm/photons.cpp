@@ -2,6 +2,7 @@
 // each batch of layered depth maps, traced in them, and stored where the camera sees them arrive.
 #include "ldm/photons.h"
 
+#include "core/error.h"
 #include "graph/context.h"
 #include "graph/prefix_sum.h"
 
@@ -18,6 +19,11 @@ class PhotonsPass : public Pass {
         describe_prefix_sum(description);
         for (const char* name : {"batch", "emitter_count", "value_count"})
             description.constant(name);
+        description.parameters.add("second_axes", second_axes_, {0, 64}, "axes",
+                                   "a second bounce: photons that arrive are split again over so many axes of their "
+                                   "batch (needs ldm.nodes=surface); 0: one bounce, as published");
+        description.parameters.add("third_axes", third_axes_, {0, 16}, "axes",
+                                   "a third bounce, likewise (needs second_axes)");
         description.parameters.add("photons", room_, {0.001, 1}, "per photon traced",
                                    "share of a batch's photons that the first build has room for; it grows");
     }
@@ -31,7 +37,8 @@ class PhotonsPass : public Pass {
             d.uses(program);
         // Sizes by expressions: the maps' and the reflective shadow maps' are other passes' parameters.
         const std::string emitters = "(rsm.depth.width * rsm.depth.height * rsm.depth.depth)";
-        const std::string values = emitters + " * ceil(ldm.views.count / ldm.batches.count)";
+        const std::string values =
+            emitters + " * ceil(ldm.views.count / ldm.batches.count) * " + std::to_string(paths());
         d.creates_buffer("photons.emitters", emitters, sizeof(Emitter)).overwritten = true;
         d.creates_buffer("photons.fates", values, 4).overwritten = true;
         d.creates_buffer("photons.commands", "8", 4).overwritten = true;
@@ -59,23 +66,28 @@ class PhotonsPass : public Pass {
         auto wait = [] { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); };
         glm::ivec3 map = c.texture("rsm.depth").desc().size;
         int emitters = map.x * map.y * map.z;
-        int slots = int(c.buffer("photons.fates").bytes() / 4 / size_t(emitters));
+        int slots = int(c.buffer("photons.fates").bytes() / 4 / size_t(emitters * paths()));
+        if (second_axes_ > 0 && c.number("ldm.nodes").value_or(0) < 2)
+            throw Error("more than one bounce needs the normal and albedo of what photons meet: set ldm.nodes=surface");
         c.set("batch", c.iteration);
         c.set("emitter_count", emitters);
-        c.set("value_count", emitters * slots);
+        c.set("value_count", emitters * slots * paths());
         if (c.iteration == 0) {
             c.dispatch("primaries", map);
             wait();
         }
-        c.dispatch("trace_photons", {emitters, slots, 1});
+        c.dispatch("trace_photons", {emitters, slots, paths()});
         wait();
-        run_prefix_sum(c, int64_t(emitters) * slots);
-        c.dispatch("store_photons", {emitters, slots, 1});
+        run_prefix_sum(c, int64_t(emitters) * slots * paths());
+        c.dispatch("store_photons", {emitters, slots, paths()});
         wait();
         c.dispatch("finish_photons", {1, 1, 1});
     }
 
   private:
+    int paths() const { return 1 + second_axes_ * (1 + third_axes_); }
+
+    int second_axes_ = 0, third_axes_ = 0;
     float room_ = 0.25f;
     int64_t grown_ = 0; ///< photons of the largest batch so far, and a reserve; 0: not known yet
 };

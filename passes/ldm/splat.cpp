@@ -3,6 +3,8 @@
 // them up without writing in between.
 #include "graph/context.h"
 
+#include <fmt/format.h>
+
 namespace bounce {
 
 class SplatPass : public Pass {
@@ -13,10 +15,14 @@ class SplatPass : public Pass {
         description.program("tiles", {"ldm/splat_tiles.comp"});
         description.parameters.add_choice("route", route_, {"blend", "tiles"},
                                           "blended quads as published, or compute by tiles of 16 × 16 pixels");
+        description.parameters.add("scale", scale_, {0.125, 1}, "",
+                                   "size of the picture that photons are splatted to, as a share of the picture");
+        description.constant("splat_size");
     }
 
     void declare(Declaration& d) override {
-        d.creates("photons.irradiance", ResourceKind::texture_2d, "rgba32f", {});
+        d.creates("photons.irradiance", ResourceKind::texture_2d, "rgba32f",
+                  Extent(fmt::format("ceil(width * {})", scale_), fmt::format("ceil(height * {})", scale_)));
         d.reads("photons.commands", Usage::indirect);
         if (route_ == Route::blend) {
             d.uses("blend");
@@ -30,6 +36,7 @@ class SplatPass : public Pass {
     }
 
     void execute(PassContext& c) override {
+        c.set("splat_size", glm::vec2(c.size("photons.irradiance")));
         if (route_ == Route::blend) {
             glEnable(GL_BLEND);
             glBlendFunc(GL_ONE, GL_ONE);
@@ -44,6 +51,7 @@ class SplatPass : public Pass {
   private:
     enum class Route { blend, tiles };
     Route route_ = Route::blend;
+    float scale_ = 1;
 };
 
 BOUNCE_REGISTER_PASS("splat", SplatPass, "adds the light of photons to the pixels under their footprints")
