@@ -18,21 +18,13 @@
 
 // The first triangle of each draw, in order; one more entry at the end.
 layout(std430) readonly buffer voxels_draw_starts { uint draw_starts[]; };
+#define DRAW_START(i) draw_starts[i]
+#include "lib/draw_of_triangle.glsl"
 
 uniform int resolution_of_grid;
 
 const int k_lanes = 16;    // invocations a triangle
 const uint k_row = 65536u; // triangles in a row of the dispatch
-
-int draw_of(uint triangle, int draw_count) {
-    int low = 0, high = draw_count; // draw_starts[low] <= triangle < draw_starts[high]
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        if (draw_starts[middle] <= triangle) low = middle;
-        else high = middle;
-    }
-    return low;
-}
 
 vec2 plane_of(vec3 p, int axis) {
     return axis == 0 ? p.yz : (axis == 1 ? p.zx : p.xy);

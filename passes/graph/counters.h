@@ -33,7 +33,7 @@ class Counters {
     bool collect(const Plan& plan, const Allocations& allocations);
     /// Waits for the newest (headless runs, before they report). Returns true when `newest` changed.
     bool finish();
-    /// Before the plan changes: what is on its way is void.
+    /// Forgets what was counted, and what is on its way.
     void drop();
     const std::vector<CounterValue>& newest() const { return newest_; }
 

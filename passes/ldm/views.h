@@ -18,6 +18,11 @@ struct LdmView {
 };
 static_assert(sizeof(LdmView) == 80);
 
+/// std430 mirror of LdmInfo in glsl/ldm/views.glsl: how the maps of a batch lie in memory.
+struct LdmInfo {
+    int32_t maps, resolution, batches, slots, heads, node_words, capacity, arrays;
+};
+
 /// One view: `resolution`² texels over the box's outline, each side fitted for itself.
 LdmView ldm_view(glm::vec3 direction, const Bounds& bounds, int resolution);
 
