@@ -15,7 +15,7 @@ namespace bounce {
 namespace {
 
 struct ChartArguments {
-    std::vector<std::string> shots, sets, merge;
+    std::vector<std::string> shots, sets, merge, parts;
     std::string graphs = k_default_graph, sweep, size = "320x180", output, shard;
     int warm_up = 3, frames = 10, samples = 0, device = -1;
     double noise = 0.01;
@@ -67,6 +67,7 @@ int run(const ChartArguments& a) {
                 task.frames = a.frames;
                 task.reference_noise = a.noise;
                 task.reference_samples = a.samples;
+                task.parts = a.parts;
                 plan.tasks.push_back(task);
             }
         }
@@ -90,6 +91,12 @@ void add_chart_command(CLI::App& app, CommandFunction& chosen) {
     command->add_option("--graphs,-g", a->graphs, "graphs, separated by commas")->capture_default_str();
     command->add_option("--sweep", a->sweep, "a sweep: name or .json (base values and lists to permute)");
     command->add_option("--set", a->sets, "a parameter for every point: pass.name=value")->allow_extra_args(false);
+    command
+        ->add_option(
+            "--resource", a->parts,
+            "compare this part (out.ambient_occlusion) instead of what the graph's transport says; repeatable: "
+            "their sum")
+        ->allow_extra_args(false);
     command->add_option("--size", a->size, "WxH of every picture")->capture_default_str();
     command->add_option("--warmup", a->warm_up, "frames before timing starts")->capture_default_str();
     command->add_option("--frames", a->frames, "frames that are timed")->capture_default_str();

@@ -43,9 +43,26 @@ std::string chart_csv(const std::vector<ChartPoint>& points) {
     }
     std::vector<std::string> header = {"shot", "graph", "width", "height"};
     header.insert(header.end(), names.begin(), names.end());
-    header.insert(header.end(), {"total_ms", "mib", "bounces", "bias", "relative_rmse", "relative_mse", "p99", "flip",
-                                 "ssim", "reference_noise", "full_bias", "full_relative_rmse", "full_flip",
-                                 "full_reference_noise", "pareto"});
+    header.insert(header.end(), {"total_ms",
+                                 "mib",
+                                 "bounces",
+                                 "bias",
+                                 "relative_rmse",
+                                 "relative_mse",
+                                 "p99",
+                                 "flip",
+                                 "ssim",
+                                 "reference_noise",
+                                 "full_bias",
+                                 "full_relative_rmse",
+                                 "full_flip",
+                                 "full_reference_noise",
+                                 "parts",
+                                 "mean",
+                                 "reference_mean",
+                                 "rmse",
+                                 "rmse_without_noise",
+                                 "pareto"});
     for (const std::string& pass : passes)
         header.insert(header.end(), {pass + "_ms", pass + "_p10_ms", pass + "_p90_ms"});
     header.insert(header.end(), {"renderer", "commit", "command"});
@@ -64,6 +81,9 @@ std::string chart_csv(const std::vector<ChartPoint>& points) {
         const PointError& e = p.same_transport;
         for (double v : {e.bias, e.relative_rmse, e.relative_mse, e.p99, e.flip, e.ssim, e.reference_noise, p.full.bias,
                          p.full.relative_rmse, p.full.flip, p.full.reference_noise})
+            number(v);
+        row.push_back(join(p.parts, "+"));
+        for (double v : {e.mean, e.reference_mean, e.rmse, e.rmse_without_noise})
             number(v);
         row.push_back(p.on_front ? "1" : "0");
         for (const std::string& id : passes) {
