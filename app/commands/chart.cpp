@@ -16,7 +16,7 @@ namespace {
 
 struct ChartArguments {
     std::vector<std::string> shots, sets, merge, parts;
-    std::string graphs = k_default_graph, sweep, size = "320x180", output, shard;
+    std::string graphs = k_default_graph, sweep, size = "320x180", output, shard, against;
     int warm_up = 3, frames = 10, samples = 0, device = -1;
     double noise = 0.01;
 };
@@ -36,7 +36,7 @@ std::pair<int, int> parse_shard(const std::string& text) {
 int run(const ChartArguments& a) {
     if (!a.merge.empty()) {
         std::vector<std::filesystem::path> folders(a.merge.begin(), a.merge.end());
-        merge_charts(folders, a.output);
+        merge_charts(folders, a.output, a.against);
         fmt::print("{}/chart.html\n", a.output);
         return 0;
     }
@@ -52,6 +52,7 @@ int run(const ChartArguments& a) {
     if (!a.sweep.empty()) combinations = load_sweep(a.sweep).combinations();
     ChartPlan plan;
     plan.folder = a.output;
+    plan.against = a.against;
     std::tie(plan.shard, plan.shards) = parse_shard(a.shard);
     for (const std::string& shot : a.shots) {
         for (const std::string& graph : split(a.graphs, ',')) {
@@ -104,6 +105,8 @@ void add_chart_command(CLI::App& app, CommandFunction& chosen) {
     command->add_option("--spp", a->samples, "samples a pixel of the references, instead of --noise");
     command->add_option("--device", a->device, "which EGL device");
     command->add_option("--shard", a->shard, "i/n: measure only every n-th point, from the i-th (0 … n − 1)");
+    command->add_option("--against", a->against,
+                        "draw the error over this parameter (d_max, or hbao_dmax.d_max) instead of over time");
     command->add_option("--merge", a->merge, "join the points of these folders instead of measuring");
     command->add_option("-o,--output", a->output, "the folder for chart.csv, .json, .svg, .html and the points")
         ->required();

@@ -1,5 +1,6 @@
 #include "app/experiments/chart_point.h"
 
+#include "app/experiments/transport.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -145,14 +146,20 @@ ChartPoint point_from_json(const std::string& text, const std::string& where) {
     }
 }
 
+bool ChartPoint::absolute() const {
+    return only_occlusion(parts);
+}
+
+double ChartPoint::shown_error() const {
+    return absolute() ? same_transport.rmse : same_transport.relative_rmse;
+}
+
 void mark_pareto(std::vector<ChartPoint>& points) {
     for (ChartPoint& point : points) {
         point.on_front = std::none_of(points.begin(), points.end(), [&](const ChartPoint& other) {
             if (other.task.shot != point.task.shot) return false;
-            bool no_worse = other.total_ms <= point.total_ms &&
-                            other.same_transport.relative_rmse <= point.same_transport.relative_rmse;
-            bool better = other.total_ms < point.total_ms ||
-                          other.same_transport.relative_rmse < point.same_transport.relative_rmse;
+            bool no_worse = other.total_ms <= point.total_ms && other.shown_error() <= point.shown_error();
+            bool better = other.total_ms < point.total_ms || other.shown_error() < point.shown_error();
             return no_worse && better;
         });
     }

@@ -58,6 +58,11 @@ struct ChartPoint {
     std::string renderer, commit;
     std::string thumbnail_png, error_png; ///< base64
     bool on_front = false;                ///< filled in by mark_pareto
+
+    /// Whether its errors are told in AO units: see only_occlusion.
+    bool absolute() const;
+    /// Against the same transport: RMSE in AO units, or else relative to the reference's mean.
+    double shown_error() const;
 };
 
 /// Renders and measures. Throws Error. `say` gets lines of progress.
