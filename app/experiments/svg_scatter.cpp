@@ -83,8 +83,10 @@ std::string joined(std::vector<std::pair<double, double>> points, bool steps, co
     std::string path;
     for (size_t i = 0; i < points.size(); ++i) {
         const auto& [x, y] = points[i];
-        path += i == 0 ? fmt::format("M{:.1f} {:.1f}", x, y)
-                       : fmt::format(steps ? " H{:.1f} V{:.1f}" : " L{:.1f} {:.1f}", x, y);
+        if (i == 0)
+            path = fmt::format("M{:.1f} {:.1f}", x, y);
+        else
+            path += steps ? fmt::format(" H{:.1f} V{:.1f}", x, y) : fmt::format(" L{:.1f} {:.1f}", x, y);
     }
     return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-dasharray=\"4 3\"/>\n", path, colour);
 }

@@ -79,10 +79,12 @@ float occluded_along(Pixel p, vec2 d, float shift, float radius, bool fades) {
     vec3 tangent = normalize(aside * dot(p.to_viewer, p.face) - p.to_viewer * dot(aside, p.face));
     bool by_cosine = weighting == 1;
     vec3 axis = by_cosine || zenith == 1 ? p.to_viewer : -camera_forward;
-    float bias = radians(angle_bias), least_rise = bias_lifts_tangent ? 0.0 : sin(bias);
+    float bias = radians(angle_bias), least_rise = sin(bias);
     float lift = bias_lifts_tangent ? bias : 0.0;
     float occluded = 0.0;
 
+    // A sample's texel lies beside the line by up to half a texel, where the tangent plane is at another elevation: whether it
+    // rises above the plane is asked of where it is, or grazing planes would occlude themselves.
     // The horizon as an angle from the axis (cosine) or as the sine of its elevation (uniform).
     float gamma = 0.0, share = 1.0, horizon;
     if (by_cosine) {
