@@ -18,7 +18,7 @@ _SEGMENTS, _SIDES = 10, 3  # of a strand's tube
 _THICKNESS = 0.003  # radius at the root
 _EYE, _TARGET, _VFOV = (0.0, 1.5, 4.3), (0.0, 1.05, 0.0), 36.0
 _COLOURS = ((0.62, 0.46, 0.28), (0.55, 0.36, 0.20), (0.70, 0.56, 0.38))
-_LIGHT = (2.6, 4.4, 3.0)
+_LIGHT = (1.7, 3.9, 3.9)
 
 
 class _Random:
