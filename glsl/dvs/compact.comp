@@ -2,6 +2,7 @@
 // volume (DVS, section V.B) and their number on the list, plus one, to voxels.place. The order on the list may differ from
 // run to run; no volume depends on it. A group is a brick of 4³ voxels: voxels.bricks says which hold anything.
 #include "dvs/list.glsl"
+#include "dvs/fixed_point.glsl"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 
@@ -11,7 +12,7 @@ layout(r8ui) writeonly uniform uimage3D voxels_bricks;
 layout(std430) buffer voxels_sums { uint sums[]; };      //! optional
 
 uniform uint kind; // k_static or k_dynamic
-uniform int averaging; // {average, last_writer, sum}
+uniform int averaging; // {average, last_writer, sum, gather}
 
 shared uint found, first, occupied;
 
@@ -40,8 +41,8 @@ void main() {
     list[index] = entry_of(voxel);
     imageStore(voxels_place, voxel, uvec4(index + 1u));
     imageStore(voxels_flags, voxel, uvec4(kind));
-    if (averaging == 1) sums[index] = mark - 1u ;
-    if (averaging == 2)
-        for (uint i = 0u; i < 12u; ++i)
-            sums[index * 12u + i] = 0u;
+    if (averaging == 1) sums[index] = mark - 1u;
+    if (averaging >= 2)
+        for (uint i = 0u; i < k_sums; ++i)
+            sums[index * k_sums + i] = 0u;
 }

@@ -11,16 +11,18 @@
 #include "dvs/tiles.glsl"
 
 uniform sampler3D dvs_base;        // the radiance volume
-#ifdef DVS_PREVIOUS
-uniform sampler3D dvs_previous; //! optional
-uniform bool from_previous;     // the radiance volume is dvs_previous
+#ifdef DVS_PREVIOUS // the radiance volume is that of the bounce before
+uniform sampler3D dvs_previous;
+#define DVS_BASE dvs_previous
+#else
+#define DVS_BASE dvs_base
 #endif
 uniform sampler3D dvs_directional; // six tiles; from the base level on, or from half the resolution
 
 uniform int direction_weights = 0;    //! {squared, absolute} weights of the three volumes: d_k² sums to 1 (as usual); their absolute values are how directional leaves add up
 uniform float ambient_decay = 0.1;    //! [0, 10] (1/voxel) λ, how fast occlusion fades with the cone's radius
-uniform bool hit_then_sample = false; //! the colour is looked up once a cone, where it is blocked
-uniform bool exact_hits = false;      //! hit_then_sample: the hit is found from voxel to voxel instead of by a thin cone
+uniform bool hit_then_sample = false; //! static the colour is looked up once a cone, where it is blocked
+uniform bool exact_hits = false;      //! static hit_then_sample: the hit is found from voxel to voxel instead of by a thin cone
 uniform float hit_aperture = 2.0;     //! [0, 90] (degrees) hit_then_sample: of the cone that finds the hit
 uniform float hit_threshold = 0.5;    //! [0.05, 0.99] hit_then_sample: occlusion from which the cone counts as blocked
 uniform float hit_radius = 1.0;       //! [0.25, 16] (voxels) hit_then_sample: radius of the sphere that is looked up
@@ -39,10 +41,12 @@ vec4 directional_value(VoxelGrid grid, vec3 at, vec3 direction, float level) {
     vec3 inside = clamp(at, vec3(margin), vec3(1.0 - margin));
     vec3 weight = direction_weights == 0 ? direction * direction : abs(direction);
     vec4 sum = vec4(0.0);
+    // Loops of one turn, here and below, instead of conditions: software drivers run both sides of those.
     for (int axis = 0; axis < 3; ++axis) {
         int leaf = 2 * axis + (direction[axis] > 0.0 ? 1 : 0); // a surface that faces −axis blocks what goes along +axis
         vec3 tile = vec3(tile_of(leaf, 1));
-        sum += weight[axis] * textureLod(dvs_directional, (inside + tile) / vec3(2.0, 3.0, 1.0), level);
+        for (bool seen = weight[axis] > 1.0e-12; seen; seen = false)
+            sum += weight[axis] * textureLod(dvs_directional, (inside + tile) / vec3(2.0, 3.0, 1.0), level);
     }
     return sum.a > 1.0 ? sum / sum.a : sum;
 }
@@ -58,12 +62,10 @@ vec4 base_value(sampler3D base, vec3 at) {
 vec4 sphere_value(VoxelGrid grid, vec3 position, vec3 direction, float level) {
     vec3 at = (position - grid.origin) / grid.side;
     if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return vec4(0.0);
-    if (grid.leaves == 6) return directional_value(grid, at, direction, level);
-    vec4 coarse = directional_value(grid, at, direction, max(level - 1.0, 0.0));
-#ifdef DVS_PREVIOUS
-    if (from_previous) return mix(base_value(dvs_previous, at), coarse, min(level, 1.0));
-#endif
-    return level >= 1.0 ? coarse : mix(base_value(dvs_base, at), coarse, level);
+    vec4 coarse = directional_value(grid, at, direction, grid.leaves == 6 ? level : max(level - 1.0, 0.0));
+    for (bool near = grid.leaves == 1 && level < 1.0; near; near = false)
+        coarse = mix(base_value(DVS_BASE, at), coarse, level);
+    return coarse;
 }
 
 float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float level) {
@@ -73,10 +75,7 @@ float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float leve
 vec3 colour_of_side(VoxelGrid grid, ivec3 voxel, bool front) {
     ivec3 size = textureSize(dvs_base, 0);
     ivec3 at = voxel + ivec3(0, 0, !front && size.z > size.x ? size.x : 0);
-#ifdef DVS_PREVIOUS
-    if (from_previous) return texelFetch(dvs_previous, at, 0).rgb;
-#endif
-    return texelFetch(dvs_base, at, 0).rgb;
+    return texelFetch(DVS_BASE, at, 0).rgb;
 }
 
 struct Traced {
