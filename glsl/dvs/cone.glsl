@@ -27,6 +27,8 @@ uniform float hit_aperture = 2.0;     //! [0, 90] (degrees) hit_then_sample: of 
 uniform float hit_threshold = 0.5;    //! [0.05, 0.99] hit_then_sample: occlusion from which the cone counts as blocked
 uniform float hit_radius = 1.0;       //! [0.25, 16] (voxels) hit_then_sample: radius of the sphere that is looked up
 
+float start_share = 0.0; // how much of its first step a cone leaves out
+
 VoxelGrid directional_grid() {
     int size = textureSize(dvs_base, 0).x, tile = textureSize(dvs_directional, 0).z;
     bool leaves = tile == size;
@@ -105,6 +107,7 @@ Traced trace_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter) {
         return cone;
     }
     float t = max(start_offset, 1.0e-3) * grid.voxel, end = reach * scene_diagonal;
+    t += start_share * cone_step * max(diameter * t, grid.voxel);
     for (int i = 0; i < most_steps && t < end && cone.occlusion < 0.99; ++i) {
         vec3 centre = apex + t * direction;
         if (outside_grid(grid, centre)) break;

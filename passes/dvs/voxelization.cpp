@@ -82,6 +82,9 @@ class VoxelizationPass : public Pass {
         d.uses(by_raster() ? "raster" : "voxelize");
         for (const char* program : {"compact", "finish_list", "resolve"})
             d.uses(program);
+        d.counts("occupied voxels", "voxels.counts", 3);
+        d.counts("of them of static geometry", "voxels.counts", 4);
+        d.counts("voxels that the list has no room for", "voxels.counts", 5, true);
         bool dynamic = d.facts.dynamic_instances > 0;
         if (dynamic) d.uses("clear_dynamic"), d.uses("forget_dynamic");
     }
@@ -134,6 +137,7 @@ class VoxelizationPass : public Pass {
         add(resolution_), add(route_), add(averaging_), add(room_),
             add(c.number(c.plan().id + ".leaf_threshold").value_or(0)),
             add(c.number(c.plan().id + ".fill").value_or(0));
+        add(c.frame().scene_min), add(c.frame().scene_max); // the grid
         for (const GpuDraw& draw : c.scene().draw_list()) {
             if (draw.flags & 1u) continue;
             add(draw.world), add(draw.material), add(draw.first_index), add(draw.index_count);
