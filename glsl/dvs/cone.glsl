@@ -43,12 +43,10 @@ vec4 directional_value(VoxelGrid grid, vec3 at, vec3 direction, float level) {
     vec3 inside = clamp(at, vec3(margin), vec3(1.0 - margin));
     vec3 weight = direction_weights == 0 ? direction * direction : abs(direction);
     vec4 sum = vec4(0.0);
-    // Loops of one turn, here and below, instead of conditions: software drivers run both sides of those.
     for (int axis = 0; axis < 3; ++axis) {
         int leaf = 2 * axis + (direction[axis] > 0.0 ? 1 : 0); // a surface that faces −axis blocks what goes along +axis
         vec3 tile = vec3(tile_of(leaf, 1));
-        for (bool seen = weight[axis] > 1.0e-12; seen; seen = false)
-            sum += weight[axis] * textureLod(dvs_directional, (inside + tile) / vec3(2.0, 3.0, 1.0), level);
+        sum += weight[axis] * textureLod(dvs_directional, (inside + tile) / vec3(2.0, 3.0, 1.0), level);
     }
     return sum.a > 1.0 ? sum / sum.a : sum;
 }
@@ -60,14 +58,25 @@ vec4 base_value(sampler3D base, vec3 at) {
     return textureLod(base, at, 0.0);
 }
 
-// Premultiplied colour and α of a sphere, without the exponent.
+// Whether the base volume is blended in at a level: below the first one of the directional volumes.
+bool is_near(VoxelGrid grid, float level) {
+    return grid.leaves == 1 && level < 1.0;
+}
+
+// Premultiplied colour and α of a sphere, without the exponent, that lies inside the grid; from the directional volumes.
+vec4 far_value(VoxelGrid grid, vec3 position, vec3 direction, float level) {
+    return directional_value(grid, (position - grid.origin) / grid.side, direction, grid.leaves == 6 ? level : max(level - 1.0, 0.0));
+}
+
+// The same where the base volume is blended in.
+vec4 near_value(VoxelGrid grid, vec3 position, vec3 direction, float level) {
+    return mix(base_value(DVS_BASE, (position - grid.origin) / grid.side), far_value(grid, position, direction, level), level);
+}
+
+// Of any sphere.
 vec4 sphere_value(VoxelGrid grid, vec3 position, vec3 direction, float level) {
-    vec3 at = (position - grid.origin) / grid.side;
-    if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return vec4(0.0);
-    vec4 coarse = directional_value(grid, at, direction, grid.leaves == 6 ? level : max(level - 1.0, 0.0));
-    for (bool near = grid.leaves == 1 && level < 1.0; near; near = false)
-        coarse = mix(base_value(DVS_BASE, at), coarse, level);
-    return coarse;
+    if (outside_grid(grid, position)) return vec4(0.0);
+    return is_near(grid, level) ? near_value(grid, position, direction, level) : far_value(grid, position, direction, level);
 }
 
 float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float level) {
@@ -85,6 +94,15 @@ struct Traced {
     float occlusion;         // α
     float ambient_occlusion; // δ
 };
+
+// Front to back.
+void add_sphere(inout Traced cone, VoxelGrid grid, vec4 value, float d) {
+    if (value.a <= 1.0e-4) return;
+    float alpha = corrected_opacity(min(value.a, 1.0));
+    cone.colour += (1.0 - cone.occlusion) * value.rgb * (alpha / value.a);
+    cone.occlusion += (1.0 - cone.occlusion) * alpha;
+    cone.ambient_occlusion += (1.0 - cone.ambient_occlusion) * alpha / (1.0 + ambient_decay * 0.5 * d / grid.voxel);
+}
 
 Traced trace_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter) {
     Traced cone = Traced(vec3(0.0), 0.0, 0.0);
@@ -108,17 +126,22 @@ Traced trace_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter) {
     }
     float t = max(start_offset, 1.0e-3) * grid.voxel, end = reach * scene_diagonal;
     t += start_share * cone_step * max(diameter * t, grid.voxel);
-    for (int i = 0; i < most_steps && t < end && cone.occlusion < 0.99; ++i) {
+    // First the few steps that look up the base volume, too: where lanes share their way, a loop of its own is what keeps the
+    // others from paying for them.
+    int i = 0;
+    for (; i < most_steps && t < end && cone.occlusion < 0.99; ++i) {
+        vec3 centre = apex + t * direction;
+        float d = max(diameter * t, grid.voxel), level = sphere_level(grid, d);
+        if (!is_near(grid, level)) break;
+        if (outside_grid(grid, centre)) return cone;
+        add_sphere(cone, grid, near_value(grid, centre, direction, level), d);
+        t += cone_step * d;
+    }
+    for (; i < most_steps && t < end && cone.occlusion < 0.99; ++i) {
         vec3 centre = apex + t * direction;
         if (outside_grid(grid, centre)) break;
         float d = max(diameter * t, grid.voxel);
-        vec4 value = sphere_value(grid, centre, direction, sphere_level(grid, d));
-        if (value.a > 1.0e-4) {
-            float alpha = corrected_opacity(min(value.a, 1.0));
-            cone.colour += (1.0 - cone.occlusion) * value.rgb * (alpha / value.a);
-            cone.occlusion += (1.0 - cone.occlusion) * alpha;
-            cone.ambient_occlusion += (1.0 - cone.ambient_occlusion) * alpha / (1.0 + ambient_decay * 0.5 * d / grid.voxel);
-        }
+        add_sphere(cone, grid, far_value(grid, centre, direction, sphere_level(grid, d)), d);
         t += cone_step * d;
     }
     return cone;

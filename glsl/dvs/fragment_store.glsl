@@ -5,6 +5,7 @@
 // 32 bits and replaced by compare-and-swap (Crassin & Green 2012), whose order does.
 layout(r32ui) uniform uimage3D voxels_place;
 layout(r8ui) readonly uniform uimage3D voxels_flags;
+layout(r8ui) writeonly uniform uimage3D voxels_bricks; // of 4³ voxels: which were written
 layout(r32ui) uniform uimage3D voxels_packed_albedo;   //! optional
 layout(r32ui) uniform uimage3D voxels_packed_normal;   //! optional
 layout(r32ui) uniform uimage3D voxels_packed_emission; //! optional
@@ -24,11 +25,13 @@ bool taken_by_static(ivec3 voxel) {
 
 void store_mark(ivec3 voxel, uint triangle) {
     imageStore(voxels_place, voxel, uvec4(triangle + 1u));
+    imageStore(voxels_bricks, voxel >> 2, uvec4(1u));
 }
 
 void store_fragment(ivec3 voxel, VoxelFragment f) {
     if (operation == 2) {
         imageStore(voxels_place, voxel, uvec4(1u));
+        imageStore(voxels_bricks, voxel >> 2, uvec4(1u));
         running_average_albedo(voxel, f.albedo);
         running_average_normal(voxel, 0.5 * f.normal + 0.5);
         if (emission_scale > 0.0) running_average_emission(voxel, f.emission / emission_scale);

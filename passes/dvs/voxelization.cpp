@@ -149,7 +149,8 @@ class VoxelizationPass : public Pass {
     }
 
     void forget_all(PassContext& c) {
-        std::vector<const char*> volumes{"voxels.place", "voxels.flags", "voxels.albedo", "voxels.normal"};
+        std::vector<const char*> volumes{"voxels.place", "voxels.flags", "voxels.bricks", "voxels.albedo",
+                                         "voxels.normal"};
         if (emission_) volumes.push_back("voxels.emission");
         if (averaging_ == Averaging::average) {
             volumes.insert(volumes.end(), {"voxels.packed_albedo", "voxels.packed_normal"});
@@ -190,7 +191,8 @@ class VoxelizationPass : public Pass {
         wait();
         visit();
         wait();
-        c.dispatch("compact", glm::ivec3(resolution_));
+        int bricks = (resolution_ + 3) / 4;
+        c.dispatch("compact", {bricks * bricks * bricks, 1, 1});
         wait();
         c.dispatch("finish_list", {1, 1, 1});
         wait();
