@@ -18,7 +18,7 @@ void main() {
         children[i] = texelFetch(dvs_filtered, 2 * voxel + ivec3(i & 1, (i >> 1) & 1, i >> 2), 0);
         occupied += children[i].a;
     }
-    occupied = occupied;
+    if (occupied <= 0.0) return;
     for (int leaf = 0; leaf < 6; ++leaf)
         imageStore(dvs_directional, voxel + tile_of(leaf, size), directional_mean(children, leaf));
 }
