@@ -24,6 +24,10 @@ class SplatPass : public Pass {
         description.constant("splat_size");
     }
 
+    std::string unneeded(const SceneFacts& facts) const override {
+        return facts.point_lights + facts.spot_lights ? "" : "the scene has no point or spot light";
+    }
+
     void declare(Declaration& d) override {
         d.creates("photons.irradiance", ResourceKind::texture_2d, "rgba32f", Extent(size(d.size.x), size(d.size.y)));
         d.reads("photons.commands", Usage::indirect);

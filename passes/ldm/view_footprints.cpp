@@ -10,6 +10,10 @@ class ViewFootprintsPass : public Pass {
         description.constant("background");
     }
 
+    std::string unneeded(const SceneFacts& facts) const override {
+        return facts.point_lights + facts.spot_lights ? "" : "the scene has no point or spot light";
+    }
+
     void declare(Declaration& d) override {
         d.creates("debug.footprints", ResourceKind::texture_2d, "rgba16f", {});
         d.reads("photons.commands", Usage::indirect);
