@@ -12,7 +12,7 @@ uniform sampler2D gbuffer_depth;
 uniform int iteration;
 layout(std430) writeonly buffer debug_rays {
     TracedPixel traced;
-    TracedRay rays[];
+    RecordedRay rays[];
 };
 
 uniform vec2 pixel = vec2(0.5);  //! [0, 1] whose rays are kept, as shares of the picture's width and height from the top left
@@ -29,5 +29,5 @@ void main() {
     int map = iteration + slot * ldm.batches;
     LdmRay ray;
     if (!ldm_surface_ray(slot, views[map], x, n, face, ray)) ray.cosine = 0.0;
-    rays[map] = TracedRay(ray.direction, ray.distance, ray.cosine, 0.0, 0.0, 0.0);
+    rays[map] = RecordedRay(ray.direction, ray.distance, ray.cosine, 0.0, 0.0, 0.0);
 }

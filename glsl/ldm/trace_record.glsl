@@ -9,7 +9,7 @@ struct TracedPixel {
     ivec2 padding;
 };
 
-struct TracedRay { // of each map
+struct RecordedRay { // of each map
     vec3 direction;
     float distance; // metres to what it meets; 1e30: nothing
     float cosine;   // to the normal; 0: the surface itself is in the way

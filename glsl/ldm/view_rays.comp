@@ -10,7 +10,7 @@ uniform sampler2D out_display;
 uniform sampler2D gbuffer_depth;
 layout(std430) readonly buffer debug_rays {
     TracedPixel traced;
-    TracedRay rays[];
+    RecordedRay rays[];
 };
 layout(FORMAT_debug_rays_view) writeonly uniform image2D debug_rays_view;
 
@@ -36,7 +36,7 @@ void main() {
     for (int first = 0; first < count; first += 256) {
         barrier();
         if (first + lane < count) {
-            TracedRay ray = rays[first + lane];
+            RecordedRay ray = rays[first + lane];
             bool hits = ray.distance < 1.0e30;
             segments[lane] = view_segment(traced.x, traced.x + min(ray.distance, scene_diagonal) * ray.direction);
             if (ray.cosine <= 0.0 || (show == 1 && !hits) || (show == 2 && hits)) segments[lane].nearness = vec2(-1.0);

@@ -5,7 +5,7 @@
 
 namespace bounce {
 
-/// The buffer debug.rays begins so, and goes on with a TracedRay for each map. Both std430, 32 bytes.
+/// The buffer debug.rays begins so, and goes on with a RecordedRay for each map. Both std430, 32 bytes.
 struct TracedPixel {
     glm::vec3 x;      ///< metres
     int rays;         ///< 0: no surface
@@ -13,13 +13,13 @@ struct TracedPixel {
     glm::ivec2 padding;
 };
 
-struct TracedRay {
+struct RecordedRay {
     glm::vec3 direction;
     float distance; ///< metres to what it meets; 1e30: nothing
     float cosine;   ///< to the normal; 0: the surface itself is in the way
     float padding[3];
 };
 
-static_assert(sizeof(TracedPixel) == 32 && sizeof(TracedRay) == 32);
+static_assert(sizeof(TracedPixel) == 32 && sizeof(RecordedRay) == 32);
 
 } // namespace bounce

@@ -216,11 +216,11 @@ TEST_F(LdmViews, RecordedRaysAreThoseOfTheOcclusion) {
             set(*session, "inspect.pixel", fmt::format("{},{}", place.x, place.y));
             render(*session);
             std::vector<std::byte> bytes = session->graph().buffer("debug.rays")->read_all<std::byte>();
-            ASSERT_EQ(bytes.size(), sizeof(TracedPixel) + 12 * sizeof(TracedRay));
+            ASSERT_EQ(bytes.size(), sizeof(TracedPixel) + 12 * sizeof(RecordedRay));
             TracedPixel traced;
-            std::vector<TracedRay> rays(12);
+            std::vector<RecordedRay> rays(12);
             std::memcpy(&traced, bytes.data(), sizeof traced);
-            std::memcpy(rays.data(), bytes.data() + sizeof traced, 12 * sizeof(TracedRay));
+            std::memcpy(rays.data(), bytes.data() + sizeof traced, 12 * sizeof(RecordedRay));
             glm::ivec2 size = session->size();
             EXPECT_EQ(traced.pixel, glm::ivec2(place * glm::vec2(size)));
             size_t at = size_t(traced.pixel.y * size.x + traced.pixel.x);
@@ -234,7 +234,7 @@ TEST_F(LdmViews, RecordedRaysAreThoseOfTheOcclusion) {
                 normal[k] = normals[4 * at + size_t(k)];
             double sum = 0, near = 0;
             float most = 0.1f * session->constants().scene_diagonal;
-            for (const TracedRay& ray : rays) {
+            for (const RecordedRay& ray : rays) {
                 EXPECT_NEAR(glm::length(ray.direction), 1, 1e-5f);
                 if (ray.cosine > 0) {
                     EXPECT_NEAR(ray.cosine, glm::dot(glm::normalize(normal), ray.direction), 1e-5f);
