@@ -8,6 +8,7 @@
 #include "core/text.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <glad/gl.h>
 #include <nlohmann/json.hpp>
@@ -52,7 +53,8 @@ std::vector<CostTableRow> rows_of(const ordered_json& json, const char* table, c
             errors.add(fmt::format("{}: a row is {{\"name\": …, \"{}\": […]}}", where, parts));
             continue;
         }
-        check_keys(entry, where, {"name", parts, "published"}, errors);
+        check_keys(entry, where, {"name", parts, "published", "counted"}, errors);
+        row.counted = entry.value("counted", true);
         row.name = text_at(entry, "name", where, errors, true);
         for (const ordered_json& part : entry[parts])
             row.parts.push_back(set_text(part));
@@ -156,7 +158,7 @@ CostTableMeasured measure_column(const CostTableFile& file, const CostTableColum
             if (ran) sum = sum.value_or(0) + session.graph().timing(id).median;
         }
         measured.time_ms.push_back(sum);
-        measured.total_ms += sum.value_or(0);
+        if (row.counted) measured.total_ms += sum.value_or(0);
     }
     return measured;
 }
@@ -181,7 +183,7 @@ std::string cost_table_markdown(const CostTableFile& file, const std::vector<Cos
                 auto published = rows[r].published.find(file.columns[c].name);
                 if (published != rows[r].published.end()) {
                     out += fmt::format(" [{:.1f}]", published->second);
-                    published_total[c] += published->second;
+                    if (rows[r].counted) published_total[c] += published->second;
                 }
                 out += " |";
             }
@@ -200,6 +202,7 @@ std::string cost_table_markdown(const CostTableFile& file, const std::vector<Cos
     table(
         file.time, "ms", [](auto& m) { return m.time_ms; }, [](auto& m) { return m.total_ms; });
     if (!measured.empty()) out += "Measured on " + measured.front().renderer + ".";
+    if (std::getenv("BOUNCE_CPU_TIME")) out += " Times are processor time of all threads together.";
     if (!file.published_by.empty()) out += " In brackets: " + file.published_by + ".";
     return out + "\n";
 }

@@ -26,6 +26,7 @@ struct CostTableColumn {
 struct CostTableRow {
     std::string name;
     std::vector<std::string> parts;          ///< resources or passes; their sum is the row
+    bool counted = true;                     ///< in the last row's sum; a row of passes that other rows hold is not
     std::map<std::string, double> published; ///< by column: MB (10⁶ bytes) or ms, as the paper prints them
 };
 

@@ -5,6 +5,7 @@
 // 32 bits and replaced by compare-and-swap (Crassin & Green 2012), whose order does.
 layout(r32ui) uniform uimage3D voxels_place;
 layout(r8ui) readonly uniform uimage3D voxels_flags;
+layout(r8ui) writeonly uniform uimage3D voxels_bricks; // of 4³ voxels: which were written
 layout(r32ui) uniform uimage3D voxels_packed_albedo;   //! optional
 layout(r32ui) uniform uimage3D voxels_packed_normal;   //! optional
 layout(r32ui) uniform uimage3D voxels_packed_emission; //! optional
@@ -14,9 +15,7 @@ uniform uint kind;     // of the geometry: 1 static, 2 dynamic
 uniform int operation; // 0 mark, 1 add, 2 average
 uniform float emission_scale; // the brightest emission in the scene
 
-const uint k_sums = 12u; // a voxel: fragments, albedo, normal, emission, leaves, spare
-const float k_fixed = 32767.0;
-
+#include "dvs/fixed_point.glsl"
 #include "dvs/running_average.glsl"
 
 // Dynamic geometry leaves static voxels as they are.
@@ -26,11 +25,13 @@ bool taken_by_static(ivec3 voxel) {
 
 void store_mark(ivec3 voxel, uint triangle) {
     imageStore(voxels_place, voxel, uvec4(triangle + 1u));
+    imageStore(voxels_bricks, voxel >> 2, uvec4(1u));
 }
 
 void store_fragment(ivec3 voxel, VoxelFragment f) {
     if (operation == 2) {
         imageStore(voxels_place, voxel, uvec4(1u));
+        imageStore(voxels_bricks, voxel >> 2, uvec4(1u));
         running_average_albedo(voxel, f.albedo);
         running_average_normal(voxel, 0.5 * f.normal + 0.5);
         if (emission_scale > 0.0) running_average_emission(voxel, f.emission / emission_scale);
@@ -39,12 +40,13 @@ void store_fragment(ivec3 voxel, VoxelFragment f) {
     uint place = imageLoad(voxels_place, voxel).r;
     if (place == 0u) return; // the list had no room
     uint base = (place - 1u) * k_sums;
+    uvec3 albedo = fixed_share(f.albedo), normal = fixed_normal(f.normal);
+    uvec3 emission = emission_scale > 0.0 ? fixed_share(f.emission / emission_scale) : uvec3(0u);
     atomicAdd(sums[base], 1u);
     for (uint i = 0u; i < 3u; ++i) {
-        atomicAdd(sums[base + 1u + i], uint(round(clamp(f.albedo[i], 0.0, 1.0) * k_fixed)));
-        atomicAdd(sums[base + 4u + i], uint(int(round(clamp(f.normal[i], -1.0, 1.0) * k_fixed))));
-        if (emission_scale > 0.0)
-            atomicAdd(sums[base + 7u + i], uint(round(clamp(f.emission[i] / emission_scale, 0.0, 1.0) * k_fixed)));
+        atomicAdd(sums[base + 1u + i], albedo[i]);
+        atomicAdd(sums[base + 4u + i], normal[i]);
+        if (emission_scale > 0.0) atomicAdd(sums[base + 7u + i], emission[i]);
     }
     atomicOr(sums[base + 10u], f.leaves);
 }

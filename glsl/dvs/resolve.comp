@@ -1,8 +1,9 @@
 // The attributes of each voxel that is new on the list: means of what its fragments left. average: the packed means;
-// last_writer: the surface of the one triangle whose number stayed; sum: sums over their count. Into the flag volume go the
+// last_writer: the surface of the one triangle whose number stayed; sum and gather: sums over their count. Into the flag volume go the
 // leaves: six bits, one for each way that a surface in the voxel faces.
 #include "voxel/triangle_voxels.glsl"
 #include "dvs/list.glsl"
+#include "dvs/fixed_point.glsl"
 #include "dvs/triangle_fragment.glsl"
 
 layout(local_size_x = 64) in;
@@ -40,8 +41,8 @@ void main() {
     } else if (averaging == 1) {
         f = fragment_of(load_triangle(sums[index], draw_starts.length() - 1), voxel);
     } else {
-        uint base = index * 12u;
-        float share = 1.0 / (32767.0 * float(max(sums[base], 1u)));
+        uint base = index * k_sums;
+        float share = 1.0 / (k_fixed * float(max(sums[base], 1u)));
         f.albedo = share * vec3(sums[base + 1u], sums[base + 2u], sums[base + 3u]);
         f.normal = share * vec3(int(sums[base + 4u]), int(sums[base + 5u]), int(sums[base + 6u]));
         if (emission_scale > 0.0) f.emission = emission_scale * share * vec3(sums[base + 7u], sums[base + 8u], sums[base + 9u]);

@@ -3,7 +3,7 @@
 // The first voxel that blocks a ray, exactly: from voxel to voxel, and over empty bricks of 4³ voxels at once. A voxel
 // blocks what its surface faces, so that a surface does not block what leaves it; where normals cancel it blocks all, and
 // two-sided surfaces block from behind too, past the first voxels.
-#include "dvs/voxel_volumes.glsl"
+#include "dvs/voxel_surface.glsl"
 #include "voxel/cone_steps.glsl"
 
 uniform usampler3D voxels_bricks; // 0: all 4³ voxels are empty
@@ -18,10 +18,10 @@ struct VoxelHit {
 
 bool voxel_blocks(uint flags, vec3 n, vec3 direction, float t, out bool front) {
     float size = length(n), facing = -dot(n, direction);
-    front = facing >= 0.0;
+    uint leaves = flags >> 2;
+    front = dot(front_of(n, leaves), direction) <= 0.0;
     if (facing > facing_threshold * size) return true;
     if (t < 2.0) return false;
-    uint leaves = flags >> 2;
     return size < 0.3 || ((leaves & (leaves >> 1) & 21u) != 0u && facing < -facing_threshold * size);
 }
 

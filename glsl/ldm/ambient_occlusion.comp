@@ -1,7 +1,7 @@
 // Ambient occlusion from the maps of a batch (LDM, Eq. 2 and 3), added up over the batches:
 //   AO(x) ≈ 2/N Σ V(x, ω_i)·cosθ_i,
 // over the N axes, each taken in the direction that leaves the surface. Red: V = 0 for any surface that is met; green: for
-// one within d_max; with obscurance, V grows with the distance to what is met instead: 1 − (1 − r/d_max)^p, r < d_max.
+// one within d_max; as obscurance (falloff quadratic), V grows with the distance r to what is met instead: (r/d_max)², r < d_max.
 #include "lib/frame.glsl"
 #include "ldm/surface_ray.glsl"
 
@@ -13,8 +13,8 @@ uniform sampler2D gbuffer_depth;
 uniform int iteration, repeat_from;
 layout(FORMAT_ldm_openness) uniform image2D ldm_openness; // Σ V·cosθ so far
 
-uniform float occlusion_distance = 0.1; //! [0.001, 10] d_max, as a share of the scene's diagonal
-uniform float obscurance = 0.0;         //! [0, 8] power p of the obscurance's fall with distance; 0: whatever lies within d_max occludes in full
+uniform float d_max = 0.1; //! [1e-4, 10] (scene diagonals) occluders further away do not count for out.ambient_occlusion_dmax
+uniform int falloff = 0;   //! {none, quadratic} what lies within d_max occludes in full, or by 1 − (r/d_max)² (obscurance)
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(ldm_openness);
@@ -26,14 +26,14 @@ void main() {
         vec3 x = world_position(pixel, depth);
         vec3 n = normalize(texelFetch(gbuffer_normal, pixel, 0).xyz);
         vec3 face = normalize(texelFetch(gbuffer_geometric_normal, pixel, 0).xyz);
-        float most = occlusion_distance * scene_diagonal;
+        float most = d_max * scene_diagonal;
         int maps = batch_maps(iteration);
         for (int slot = 0; slot < maps; ++slot) {
             LdmRay ray;
             if (!ldm_surface_ray(slot, views[iteration + slot * ldm.batches], x, n, face, ray)) continue;
             float r = ray.distance;
             vec2 open = vec2(r < k_no_hit ? 0.0 : 1.0, r < most ? 0.0 : 1.0);
-            if (obscurance > 0.0 && r < most) open.g = 1.0 - pow(1.0 - r / most, obscurance);
+            if (falloff == 1 && r < most) open.g = r * r / (most * most);
             sum += open * ray.cosine;
         }
     }

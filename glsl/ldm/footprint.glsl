@@ -8,7 +8,7 @@
 #include "lib/frame.glsl"
 #include "ldm/photon.glsl"
 
-uniform vec2 splat_size; // of the picture that is splatted to; may be smaller than the pixels' own
+#include "ldm/tiles.glsl"
 
 // The pixel whose surface stands for a texel of that picture.
 ivec2 splat_pixel(ivec2 texel) {

@@ -2,8 +2,7 @@
 // and highest pixel, 16 bits a coordinate.
 #include "lib/frame.glsl"
 #include "ldm/photon.glsl"
-
-uniform vec2 splat_size; // of the picture that is splatted to
+#include "ldm/tiles.glsl"
 
 layout(local_size_x = 256) in;
 

@@ -1,64 +1,39 @@
-// Splats by tiles: a group of 16 × 16 pixels goes through the chunks of 256 photons; of those whose box meets the tile it
-// tests each photon's box, and every pixel adds up the ones that remain, in the order of the photons (so that two runs add
-// alike).
+// Splats by tiles: every texel goes through its tile's list and adds up the photons whose footprint covers it, in their
+// order (so that two runs add alike), and writes once. (A list of more than 65,535 photons would be cut off by drivers that
+// bound loops; a batch's are far shorter.)
 #include "lib/frame.glsl"
 #include "ldm/footprint.glsl"
+#include "ldm/tiles.glsl"
 
-layout(local_size_x = 16, local_size_y = 16) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(std430) readonly buffer photons_stored { Photon stored[]; };
-layout(std430) readonly buffer photons_commands { uint commands[]; };
 layout(std430) readonly buffer photons_boxes { uvec2 boxes[]; };
-layout(std430) readonly buffer photons_chunks { uvec2 chunks[]; };
+layout(std430) readonly buffer prefix_values { uint starts[]; };
+layout(std430) readonly buffer splat_lists { uint splat_list[]; };
 uniform sampler2D gbuffer_normal;
 uniform sampler2D gbuffer_depth;
 layout(FORMAT_photons_irradiance) uniform image2D photons_irradiance; // E/π so far
 
-shared uint near_chunks[8], near_photons[8]; // a bit for each of 256
-
-bool meets_tile(uvec2 box) {
-    uvec2 low = uvec2(box.x & 0xffffu, box.x >> 16), high = uvec2(box.y & 0xffffu, box.y >> 16);
-    uvec2 first = gl_WorkGroupID.xy * 16u, last = first + 15u;
-    return all(lessThanEqual(low, last)) && all(greaterThanEqual(high, first));
-}
+uniform int chunk_count;
 
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy), pixel = splat_pixel(texel);
-    uint lane = gl_LocalInvocationIndex, count = commands[7], chunk_count = commands[4];
-    bool inside = all(lessThan(texel, ivec2(splat_size)));
-    float depth = inside ? texelFetch(gbuffer_depth, pixel, 0).r : 0.0;
-    vec3 x = depth > 0.0 ? world_position(pixel, depth) : vec3(0.0);
-    vec3 normal = depth > 0.0 ? texelFetch(gbuffer_normal, pixel, 0).xyz : vec3(0.0), sum = vec3(0.0);
-
-    for (uint first = 0u; first < chunk_count; first += 256u) {
-        if (lane < 8u) near_chunks[lane] = 0u;
-        barrier();
-        uint own = first + lane;
-        if (own < chunk_count && meets_tile(chunks[own])) atomicOr(near_chunks[lane >> 5], 1u << (lane & 31u));
-        barrier();
-        for (uint word = 0u; word < 8u; ++word) {
-            for (uint rest = near_chunks[word]; rest != 0u; rest &= rest - 1u) {
-                uint chunk = first + word * 32u + uint(findLSB(rest));
-                if (lane < 8u) near_photons[lane] = 0u;
-                barrier();
-                uint candidate = chunk * 256u + lane;
-                if (candidate < count && meets_tile(boxes[candidate])) atomicOr(near_photons[lane >> 5], 1u << (lane & 31u));
-                barrier();
-                if (depth > 0.0) {
-                    for (uint w = 0u; w < 8u; ++w) {
-                        for (uint bits = near_photons[w]; bits != 0u; bits &= bits - 1u) {
-                            Photon photon = stored[chunk * 256u + w * 32u + uint(findLSB(bits))];
-                            vec3 n = footprint_normal(photon);
-                            if (dot(n, normal) <= 0.0) continue; // it arrived on the other side
-                            float l = footprint_distance(photon, n, x);
-                            if (l < 1.0) sum += footprint_radiance(photon, l);
-                        }
-                    }
-                }
-                barrier();
-            }
-        }
-        barrier();
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(texel, ivec2(splat_size)))) return;
+    ivec2 pixel = splat_pixel(texel);
+    float depth = texelFetch(gbuffer_depth, pixel, 0).r;
+    if (depth <= 0.0) return;
+    vec3 x = world_position(pixel, depth), normal = texelFetch(gbuffer_normal, pixel, 0).xyz, sum = vec3(0.0);
+    int tile = (texel.y / k_tile) * tiles_across() + texel.x / k_tile;
+    uint first = starts[tile * chunk_count], last = min(starts[(tile + 1) * chunk_count], uint(splat_list.length()));
+    for (uint i = first; i < last; ++i) {
+        uint index = splat_list[i];
+        if (!box_meets(boxes[index], uvec2(texel), uvec2(texel))) continue;
+        Photon photon = stored[index];
+        vec3 n = footprint_normal(photon);
+        if (dot(n, normal) <= 0.0) continue; // it arrived on the other side
+        float l = footprint_distance(photon, n, x);
+        if (l < 1.0) sum += footprint_radiance(photon, l);
     }
-    if (inside) imageStore(photons_irradiance, texel, imageLoad(photons_irradiance, texel) + vec4(sum, 0.0));
+    imageStore(photons_irradiance, texel, imageLoad(photons_irradiance, texel) + vec4(sum, 0.0));
 }

@@ -12,10 +12,12 @@ namespace bounce {
 class VoxelizationPass : public Pass {
   public:
     void describe(PassDescription& description) override {
-        for (const char* name : {"voxelize", "compact", "finish_list", "clear_dynamic", "forget_dynamic", "resolve"})
+        for (const char* name : {"voxelize", "compact", "finish_list", "clear_dynamic", "forget_dynamic", "resolve",
+                                 "triangle_bounds", "gather_fragments"})
             description.program(name, {std::string("dvs/") + name + ".comp"});
         description.program("raster", {"dvs/voxelize.vert", "dvs/voxelize.geom", "dvs/voxelize.frag"});
-        for (const char* name : {"resolution_of_grid", "operation", "kind", "emission_scale"})
+        for (const char* name :
+             {"resolution_of_grid", "operation", "kind", "emission_scale", "triangle_count", "level", "first_box"})
             description.constant(name);
         ParameterSet& p = description.parameters;
         p.add("resolution", resolution_, {8, 512}, "voxels", "along each side of the grid; a power of two");
@@ -23,9 +25,11 @@ class VoxelizationPass : public Pass {
             "route", route_, {"raster", "compute"},
             "raster: conservative, along the dominant axis, as published; compute: every voxel that a triangle "
             "overlaps, without a rasterizer");
-        p.add_choice("averaging", averaging_, {"average", "last_writer", "sum"},
-                     "how the fragments of a voxel become one. average: packed running means by compare-and-swap, as "
-                     "published; last_writer: one triangle's surface; sum: integer sums, the same every run");
+        p.add_choice(
+            "averaging", averaging_, {"average", "last_writer", "sum", "gather"},
+            "how the fragments of a voxel become one. average: packed running means by compare-and-swap, as "
+            "published; last_writer: one triangle's surface; sum: integer sums by atomic adds, the same every "
+            "run; gather: the same sums without atomics, each voxel going through its triangles (compute route)");
         p.add("static_once", static_once_,
               "static geometry is voxelized when it changes only, as published; off: all of it in each frame");
         p.add("room", room_, {1, 256}, "",
@@ -64,13 +68,23 @@ class VoxelizationPass : public Pass {
             volume("voxels.packed_normal", "r32ui");
             if (emission_) volume("voxels.packed_emission", "r32ui");
         } else {
-            list("voxels.sums", room, averaging_ == Averaging::sum ? 12 * 4 : 4);
+            list("voxels.sums", room, averaging_ == Averaging::last_writer ? 4 : 12 * 4);
         }
         d.creates_buffer("voxels.draw_starts", std::to_string(d.facts.instances + 1), 4).persistent = true;
         d.writes("voxels.draw_starts", Usage::storage);
-        d.uses(route_ == Route::raster ? "raster" : "voxelize");
+        if (averaging_ == Averaging::gather) {
+            // Boxes around triangles, around 64 of them, and around 64 of those: two corners each.
+            uint64_t boxes = d.facts.triangles + d.facts.triangles / 64 + d.facts.triangles / 4096 + 2;
+            list("voxels.triangle_bounds", std::to_string(2 * boxes), 16);
+            d.uses("triangle_bounds");
+            d.uses("gather_fragments");
+        }
+        d.uses(by_raster() ? "raster" : "voxelize");
         for (const char* program : {"compact", "finish_list", "resolve"})
             d.uses(program);
+        d.counts("occupied voxels", "voxels.counts", 3);
+        d.counts("of them of static geometry", "voxels.counts", 4);
+        d.counts("voxels that the list has no room for", "voxels.counts", 5, true);
         bool dynamic = d.facts.dynamic_instances > 0;
         if (dynamic) d.uses("clear_dynamic"), d.uses("forget_dynamic");
     }
@@ -100,8 +114,12 @@ class VoxelizationPass : public Pass {
 
   private:
     enum class Route { raster, compute };
-    enum class Averaging { average, last_writer, sum };
+    enum class Averaging { average, last_writer, sum, gather };
     static constexpr int k_static = 1, k_dynamic = 2; // as in dvs/list.glsl
+    static constexpr int k_row = 65536;               // as in voxel/triangle_voxels.glsl
+
+    /// A voxel's owner finds the triangles that overlap it exactly: so must those that mark it.
+    bool by_raster() const { return route_ == Route::raster && averaging_ != Averaging::gather; }
 
     static void wait() {
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
@@ -119,6 +137,7 @@ class VoxelizationPass : public Pass {
         add(resolution_), add(route_), add(averaging_), add(room_),
             add(c.number(c.plan().id + ".leaf_threshold").value_or(0)),
             add(c.number(c.plan().id + ".fill").value_or(0));
+        add(c.frame().scene_min), add(c.frame().scene_max); // the grid
         for (const GpuDraw& draw : c.scene().draw_list()) {
             if (draw.flags & 1u) continue;
             add(draw.world), add(draw.material), add(draw.first_index), add(draw.index_count);
@@ -130,7 +149,8 @@ class VoxelizationPass : public Pass {
     }
 
     void forget_all(PassContext& c) {
-        std::vector<const char*> volumes{"voxels.place", "voxels.flags", "voxels.albedo", "voxels.normal"};
+        std::vector<const char*> volumes{"voxels.place", "voxels.flags", "voxels.bricks", "voxels.albedo",
+                                         "voxels.normal"};
         if (emission_) volumes.push_back("voxels.emission");
         if (averaging_ == Averaging::average) {
             volumes.insert(volumes.end(), {"voxels.packed_albedo", "voxels.packed_normal"});
@@ -153,7 +173,7 @@ class VoxelizationPass : public Pass {
         buffer.update(0, starts.size() * sizeof(uint32_t), starts.data());
         int triangles = int(starts.back());
         auto visit = [&] {
-            if (route_ == Route::raster) {
+            if (by_raster()) {
                 Targets none;
                 none.size = glm::ivec2(resolution_);
                 DrawOptions options;
@@ -163,7 +183,7 @@ class VoxelizationPass : public Pass {
                 c.draw_scene("raster", none, options);
                 return;
             }
-            constexpr int k_lanes = 16, k_row = 65536; // as in voxel/triangle_voxels.glsl
+            constexpr int k_lanes = 16; // as in voxel/triangle_voxels.glsl
             c.dispatch("voxelize", {std::min(triangles, k_row) * k_lanes, (triangles + k_row - 1) / k_row, 1});
         };
         c.set("kind", kind);
@@ -171,7 +191,8 @@ class VoxelizationPass : public Pass {
         wait();
         visit();
         wait();
-        c.dispatch("compact", glm::ivec3(resolution_));
+        int bricks = (resolution_ + 3) / 4;
+        c.dispatch("compact", {bricks * bricks * bricks, 1, 1});
         wait();
         c.dispatch("finish_list", {1, 1, 1});
         wait();
@@ -180,8 +201,24 @@ class VoxelizationPass : public Pass {
             visit();
             wait();
         }
+        if (averaging_ == Averaging::gather) gather_fragments(c, triangles);
         c.dispatch_indirect("resolve", "voxels.counts");
         wait();
+    }
+
+    void gather_fragments(PassContext& c, int triangles) {
+        c.set("triangle_count", triangles);
+        for (int level = 0; level < 3; ++level) {
+            c.set("level", level);
+            int boxes = (triangles + (1 << (6 * level)) - 1) >> (6 * level);
+            c.dispatch("triangle_bounds", {std::min(boxes, k_row), (boxes + k_row - 1) / k_row, 1});
+            wait();
+        }
+        for (int first = 0; first < (triangles + 4095) / 4096; first += 8) {
+            c.set("first_box", first);
+            c.dispatch_indirect("gather_fragments", "voxels.counts");
+            wait();
+        }
     }
 
     int resolution_ = 128;

@@ -208,6 +208,8 @@ Transport read_transport(const json& value, ErrorList& errors) {
         }
         if (!texts) reader.error("'parts' is a list of out.* names");
     }
+    transport.occlusion_distance = reader.text("occlusion_distance");
+    transport.occlusion_falloff = reader.text("occlusion_falloff");
     return transport;
 }
 

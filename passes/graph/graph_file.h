@@ -2,7 +2,8 @@
 // A graph file (assets/graphs/*.json): an ordered list of passes with what differs from their defaults.
 //
 //   { "version": 1, "about": "…",
-//     "transport": {"bounces": 0, "diffuse_only": false, "parts": ["out.direct", "out.emission"]},
+//     "transport": {"bounces": 0, "diffuse_only": false, "parts": ["out.direct", "out.emission"],
+//                   "occlusion_distance": "ao.d_max", "occlusion_falloff": "ao.falloff"},
 //     "parameters": { "scale": {"default": 0.5, "range": [0.1, 1], "unit": "", "help": "…"} },
 //     "resources":  { "blur.half": {"kind": "texture_2d", "format": "rgba16f", "size": ["width*graph.scale",
 //     "height*graph.scale"],
@@ -64,6 +65,9 @@ struct Transport {
     int bounces = -1; ///< scattering orders after direct; −1 = all
     bool diffuse_only = false;
     std::vector<std::string> parts{"out.radiance"}; ///< the parts that it makes; their sum is what is compared
+    /// Parameters ("id.name") that say what out.ambient_occlusion_dmax means: d_max as a share of the scene's diagonal,
+    /// and a choice of k_occlusion_falloffs; "" = the reference's defaults.
+    std::string occlusion_distance, occlusion_falloff;
 };
 
 struct GraphFile {

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace bounce {
@@ -111,6 +112,8 @@ class Pass {
     virtual void describe(PassDescription& description) = 0;
     /// A reason why this scene does not need the pass ("no emissive material"); empty when it does.
     virtual std::string unneeded(const SceneFacts&) const { return {}; }
+    /// What readers get instead of what this pass makes when it does not run: {made, instead}.
+    virtual std::vector<std::pair<std::string, std::string>> stand_ins() const { return {}; }
     virtual void declare(Declaration& declaration) = 0;
     virtual void execute(PassContext& context) = 0;
     /// Told what the pass counted in a frame, in the order of its `counts` (numbers only). True: something had no room,

@@ -28,6 +28,7 @@ class Planner {
         for (const auto& node : model_.nodes())
             declare(*node);
         check_sources(passes_, resources_, incomplete_, errors_);
+        stand_in();
         decline();
         std::vector<int> order = order_passes(passes_, resources_, errors_);
         for (const ResourceDeclaration& resource : resources_)
@@ -82,7 +83,9 @@ class Planner {
             pass.declined = node.enabled ? node.pass->unneeded(facts_) : "switched off";
             if (pass.declined.empty() && !node.entry.needs.empty() &&
                 evaluate(node.entry.needs, [&](auto& n) { return fact(n); }) == 0) {
-                pass.declined = "the scene has no " + node.entry.needs;
+                bool asks_parameters = node.entry.needs.find('.') != std::string::npos;
+                pass.declined =
+                    asks_parameters ? "it needs " + node.entry.needs : "the scene has no " + node.entry.needs;
             }
         } catch (const Error& error) {
             tell(pass, "pass '" + node.id() + "': " + error.what());
@@ -203,6 +206,20 @@ class Planner {
             }
         }
         return had_readers;
+    }
+
+    /// Readers of what a pass that does not run would have made get what it names instead.
+    void stand_in() {
+        for (const Declared& gone : passes_) {
+            if (gone.declined.empty()) continue;
+            for (const auto& [made, instead] : gone.node->pass->stand_ins()) {
+                std::string from = target_of(*gone.node, made).resource, to = target_of(*gone.node, instead).resource;
+                for (Declared& pass : passes_) {
+                    for (size_t i = 0; i < pass.uses.size(); ++i)
+                        if (!pass.uses[i].writes && pass.targets[i].resource == from) pass.targets[i].resource = to;
+                }
+            }
+        }
     }
 
     void decline() {
