@@ -65,6 +65,10 @@ struct ChartPoint {
     double shown_error() const;
 };
 
+class Session;
+/// Fills in the errors of a frame that `session` has rendered (its frame index is the reference's), and the pictures.
+void compare_with_reference(Session& session, ChartPoint& point, const std::function<void(const std::string&)>& say);
+
 /// Renders and measures. Throws Error. `say` gets lines of progress.
 ChartPoint measure_point(const PointTask& task, const std::function<void(const std::string&)>& say);
 

@@ -106,6 +106,38 @@ PointError compare(const Image& picture, const LayeredImage& reference, const st
 
 } // namespace
 
+void compare_with_reference(Session& session, ChartPoint& point, const std::function<void(const std::string&)>& say) {
+    const PointTask& task = point.task;
+    const Graph& graph = session.graph();
+    const bool occlusion = only_occlusion(point.parts);
+    LayeredImage picture = read_parts(session);
+
+    // The references are of the same shot at the same size.
+    Shot shot = load_shot(task.shot);
+    shot.width = task.size.x;
+    shot.height = task.size.y;
+    ReferenceSettings settings = transport_settings(graph.model());
+    if (occlusion) settings.bounces = 0; // it has none
+    LayeredImage same = reference_for(task, shot, settings, occlusion ? point.parts.front() : "out.radiance", say);
+    const glm::vec3 eye = evaluate_shot(shot, task.warm_up + task.frames - 1).camera.position;
+    Mask mask = edge_mask(same.layers.at("gbuffer.normal"), same.layers.at("gbuffer.position"), eye);
+    point.kept_share = mask.share();
+    Image own = sum_of_parts(picture, point.parts);
+    point.same_transport = compare(own, same, point.parts, mask);
+    if (occlusion) {
+        point.full = point.same_transport; // more light does not change what is open
+    } else {
+        ReferenceSettings all;
+        LayeredImage full = reference_for(task, shot, all, "out.radiance", say);
+        point.full = compare(sum_of_parts(picture, {"out.radiance"}), full, {"out.radiance"}, mask);
+    }
+
+    Image truth = sum_of_parts(same, point.parts);
+    const float exposure = occlusion ? 0 : automatic_exposure(truth, mask);
+    point.thumbnail_png = base64(encode_png(small_picture(shown(own, !occlusion, exposure), 240)));
+    point.error_png = base64(encode_png(heat_map(relative_error_map(own, truth), 0, 0.5f, mask)));
+}
+
 ChartPoint measure_point(const PointTask& task, const std::function<void(const std::string&)>& say) {
     ChartPoint point;
     point.task = task;
@@ -137,33 +169,7 @@ ChartPoint measure_point(const PointTask& task, const std::function<void(const s
     point.bytes = graph.plan().total_bytes();
     point.transport_bounces = transport.bounces;
     point.parts = task.parts.empty() ? transport.parts : task.parts;
-    const bool occlusion = only_occlusion(point.parts);
-    LayeredImage picture = read_parts(session);
-
-    // The references are of the same shot at the same size.
-    Shot shot = load_shot(task.shot);
-    shot.width = task.size.x;
-    shot.height = task.size.y;
-    ReferenceSettings settings = transport_settings(graph.model());
-    if (occlusion) settings.bounces = 0; // it has none
-    LayeredImage same = reference_for(task, shot, settings, occlusion ? point.parts.front() : "out.radiance", say);
-    const glm::vec3 eye = evaluate_shot(shot, task.warm_up + task.frames - 1).camera.position;
-    Mask mask = edge_mask(same.layers.at("gbuffer.normal"), same.layers.at("gbuffer.position"), eye);
-    point.kept_share = mask.share();
-    Image own = sum_of_parts(picture, point.parts);
-    point.same_transport = compare(own, same, point.parts, mask);
-    if (occlusion) {
-        point.full = point.same_transport; // more light does not change what is open
-    } else {
-        ReferenceSettings all;
-        LayeredImage full = reference_for(task, shot, all, "out.radiance", say);
-        point.full = compare(sum_of_parts(picture, {"out.radiance"}), full, {"out.radiance"}, mask);
-    }
-
-    Image truth = sum_of_parts(same, point.parts);
-    const float exposure = occlusion ? 0 : automatic_exposure(truth, mask);
-    point.thumbnail_png = base64(encode_png(small_picture(shown(own, !occlusion, exposure), 240)));
-    point.error_png = base64(encode_png(heat_map(relative_error_map(own, truth), 0, 0.5f, mask)));
+    compare_with_reference(session, point, say);
     point.renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     point.commit = program_commit();
     return point;

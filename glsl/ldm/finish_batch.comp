@@ -14,5 +14,7 @@ void main() {
     ldm_counted[1] = max(ldm_counted[1], asked);
     ldm_counted[2] += asked > uint(ldm.capacity) ? asked - uint(ldm.capacity) : 0u;
     ldm_counted[3] += asked;
+    uint heads = uint(batch_maps(batch) * ldm.resolution * ldm.resolution);
+    ldm_counted[4] += uint((float(heads) + float(asked) * float(ldm.node_words)) * (4.0 / 1024.0));
     ldm_counted[0] = 0u;
 }

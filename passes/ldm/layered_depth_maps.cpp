@@ -64,6 +64,7 @@ class LayeredDepthMapsPass : public Pass {
         d.counts("fragments in the largest batch", "ldm.counts", 1);
         d.counts("fragments without room", "ldm.counts", 2, true);
         d.counts("fragments of all maps", "ldm.counts", 3);
+        d.counts("KiB of all lists", "ldm.counts", 4);
         d.uses(route_ == Route::raster ? "build" : "build_by_compute");
         for (const char* program : {"start_batch", "finish_batch"})
             d.uses(program);
