@@ -1,5 +1,6 @@
 // The fragments of a batch's maps without a rasterizer: triangles × maps, in two rounds without barriers. First an invocation
-// takes a triangle through a map, if that is small; else it marks it. Then a work group takes each marked one.
+// takes a triangle through up to 16 maps; where it is too large for that, it is marked. Then a work group takes each marked
+// one.
 //
 // Coverage is exact and watertight, as a rasterizer's: corners are snapped to 1/256 texel, the signs of the edge functions
 // are those of exact integers, and a centre on an edge belongs to the triangle that the top-left rule names. Depths are
@@ -23,7 +24,7 @@ uniform int slot_count;
 uniform int bands; // 0: the first round; else the second, and among how many groups a map's rows are divided (some drivers
                    // silently end an invocation's loops after 65,535 steps)
 
-const int k_small = 32; // texels that one invocation looks at
+const int k_small = 64; // texels that one invocation looks at
 const int k_unit = 256; // steps of the snapping in a texel
 
 struct FlatTriangle {
@@ -68,27 +69,33 @@ uint index_at(FlatTriangle t, int corner) {
     return indices[t.first + uint(t.turned && corner > 0 ? 3 - corner : corner)];
 }
 
-FlatTriangle flatten(uint triangle, LdmView view, out float area) {
+FlatTriangle load_triangle(uint triangle, out vec3 positions[3]) {
     FlatTriangle t;
     t.draw = draw_of(triangle, draw_count);
     t.first = draws[t.draw].first_index + 3u * (triangle - DRAW_START(t.draw));
     t.turned = false;
     mat4 world = draws[t.draw].world;
+    for (int i = 0; i < 3; ++i)
+        positions[i] = (world * vec4(vertices[indices[t.first + uint(i)]].position_u.xyz, 1.0)).xyz;
+    return t;
+}
+
+// False without an area.
+bool flatten(inout FlatTriangle t, vec3 positions[3], LdmView view) {
     for (int i = 0; i < 3; ++i) {
-        vec3 p = ldm_project(view, (world * vec4(vertices[index_at(t, i)].position_u.xyz, 1.0)).xyz);
+        vec3 p = ldm_project(view, positions[i]);
         t.corners[i] = ivec2(round(p.xy * float(k_unit)));
         t.depths[i] = p.z;
     }
-    area = cross_of(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]);
-    if (area < 0.0) {
+    float area = cross_of(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]);
+    t.turned = area < 0.0;
+    if (t.turned) {
         ivec2 corner = t.corners[1];
         t.corners[1] = t.corners[2], t.corners[2] = corner;
         float depth = t.depths[1];
         t.depths[1] = t.depths[2], t.depths[2] = depth;
-        t.turned = true;
-        area = -area;
     }
-    return t;
+    return area != 0.0;
 }
 
 // Texels of the band whose centres lie in the box around the triangle: from xy to zw.
@@ -144,33 +151,47 @@ int texel_count(ivec4 box) {
     return size.x * size.y;
 }
 
-void main() {
-    int slot = int(gl_WorkGroupID.y), lane = int(gl_LocalInvocationID.x);
-    LdmView view = views[batch + slot * ldm.batches];
-    ivec2 rows = ivec2(0, ldm.resolution - 1);
-    if (bands > 1) {
-        int height = (ldm.resolution + bands - 1) / bands;
-        rows = int(gl_WorkGroupID.z) * height + ivec2(0, height - 1);
+const int k_maps_each = 16;
+
+int marks_of(uint group, int slot) {
+    return 8 + draw_count + 1 + 2 * (int(group) * slot_count + slot);
+}
+
+// The first round. A triangle's corners are loaded once for all its maps.
+void take_small(uint triangle) {
+    vec3 positions[3];
+    FlatTriangle t = load_triangle(triangle, positions);
+    int from = int(gl_WorkGroupID.y) * k_maps_each, to = min(from + k_maps_each, batch_maps(batch));
+    for (int slot = from; slot < to; ++slot) {
+        if (!flatten(t, positions, views[batch + slot * ldm.batches])) continue;
+        ivec4 box = texels_of(t, ivec2(0, ldm.resolution - 1));
+        int count = texel_count(box);
+        if (count > k_small) atomicOr(ldm_counted[marks_of(triangle / 64u, slot) + int(triangle / 32u & 1u)], 1u << (triangle & 31u));
+        else go_through(t, slot, box, 0, count, 1);
     }
-    uint triangles = DRAW_START(draw_count);
-    float area;
-    for (uint first = gl_WorkGroupID.x * 64u; first < triangles; first += gl_NumWorkGroups.x * 64u) {
-        int marks = 8 + draw_count + 1 + 2 * (int(first / 64u) * slot_count + slot);
-        if (bands == 0) {
-            if (first + uint(lane) >= triangles) continue;
-            FlatTriangle t = flatten(first + uint(lane), view, area);
+}
+
+// The second round, for one map: the marked ones among 64 triangles.
+void take_marked(uint group, int slot, ivec2 rows) {
+    LdmView view = views[batch + slot * ldm.batches];
+    for (int word = 0; word < 2; ++word) {
+        for (uint bits = ldm_counted[marks_of(group, slot) + word]; bits != 0u; bits &= bits - 1u) {
+            vec3 positions[3];
+            FlatTriangle t = load_triangle(64u * group + uint(32 * word + findLSB(bits)), positions);
+            flatten(t, positions, view);
             ivec4 box = texels_of(t, rows);
-            int count = area > 0.0 ? texel_count(box) : 0;
-            if (count > k_small) atomicOr(ldm_counted[marks + lane / 32], 1u << uint(lane % 32));
-            go_through(t, slot, box, 0, count > k_small ? 0 : count, 1);
-            continue;
+            go_through(t, slot, box, int(gl_LocalInvocationID.x), texel_count(box), 64);
         }
-        for (int word = 0; word < 2; ++word) {
-            for (uint bits = ldm_counted[marks + word]; bits != 0u; bits &= bits - 1u) {
-                FlatTriangle t = flatten(first + uint(32 * word + findLSB(bits)), view, area);
-                ivec4 box = texels_of(t, rows);
-                go_through(t, slot, box, lane, texel_count(box), 64);
-            }
-        }
+    }
+}
+
+void main() {
+    uint triangles = DRAW_START(draw_count);
+    int height = (ldm.resolution + max(bands, 1) - 1) / max(bands, 1), band = int(gl_WorkGroupID.z);
+    ivec2 rows = ivec2(band * height, min((band + 1) * height, ldm.resolution) - 1);
+    for (uint group = gl_WorkGroupID.x; 64u * group < triangles; group += gl_NumWorkGroups.x) {
+        uint triangle = 64u * group + gl_LocalInvocationID.x;
+        if (bands > 0) take_marked(group, int(gl_WorkGroupID.y), rows);
+        else if (triangle < triangles) take_small(triangle);
     }
 }

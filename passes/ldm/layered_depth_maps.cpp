@@ -138,7 +138,7 @@ class LayeredDepthMapsPass : public Pass {
         c.set("draw_count", int(draws.size()));
         c.set("slot_count", slots_);
         c.set("bands", 0);
-        c.dispatch("build_by_compute", {groups * k_group, slots, 1});
+        c.dispatch("build_by_compute", {groups * k_group, (slots + k_maps_each - 1) / k_maps_each, 1});
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
         // In the second round an invocation looks at a sixty-fourth of up to 64 triangles of up to so many texels.
         constexpr int k_band_texels = 16384;
@@ -146,7 +146,7 @@ class LayeredDepthMapsPass : public Pass {
         c.set("bands", bands);
         c.dispatch("build_by_compute", {groups * k_group, slots, bands});
     }
-    static constexpr int k_group = 64; ///< triangles, as in ldm/build.comp
+    static constexpr int k_group = 64, k_maps_each = 16; ///< triangles and maps, as in ldm/build.comp
     static int64_t groups_of(int64_t triangles) { return (triangles + k_group - 1) / k_group; }
 
     void write_views(PassContext& c) {

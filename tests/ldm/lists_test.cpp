@@ -101,8 +101,8 @@ TEST_P(ListsOf, AScene) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ListsOf,
-                         testing::Values(Case{"blocks", blocks, 12, 32}, Case{"slivers", slivers, 9, 48},
-                                         Case{"cornell", cornell, 16, 25}, Case{"cornell_fine", cornell, 3, 128}),
+                         testing::Values(Case{"blocks", blocks, 20, 32}, Case{"slivers", slivers, 9, 48},
+                                         Case{"cornell", cornell, 16, 25}, Case{"cornell_fine", cornell, 3, 150}),
                          [](auto& test) { return std::string(test.param.name); });
 
 /// Untilted, walls stand on edge to some maps and lie along the texels of others.
