@@ -159,6 +159,7 @@ TEST_F(LdmLight, AMirrorShowsWhatTheLightMapsHold) {
     auto r = runner(made.scene, at({0, 0, 3}, {0, 0, -2}, 15), {{"ldm.maps", "512"}, {"ldm.memory", "1024"}},
                     {spot_light({0, 0, -1}, {0, 0, 1}, {50, 50, 50}, 44, 45)});
     r->diffuse_only = 0;
+    r->facts.glossy_materials = 1;
     r->frame();
     // In the middle: E = I/d² = 50/25, and ρE/π leaves the wall.
     std::vector<float> mirror = r->read("out.indirect_specular");
