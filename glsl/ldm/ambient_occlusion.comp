@@ -3,7 +3,7 @@
 // over the N axes, each taken in the direction that leaves the surface. Red: V = 0 for any surface that is met; green: for
 // one within d_max; as obscurance (falloff quadratic), V grows with the distance r to what is met instead: (r/d_max)², r < d_max.
 #include "lib/frame.glsl"
-#include "ldm/trace.glsl"
+#include "ldm/surface_ray.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -29,14 +29,12 @@ void main() {
         float most = d_max * scene_diagonal;
         int maps = batch_maps(iteration);
         for (int slot = 0; slot < maps; ++slot) {
-            LdmView view = views[iteration + slot * ldm.batches];
-            float cosine = dot(n, view.direction), above = dot(face, view.direction);
-            if (cosine * above <= 0.0) continue; // the surface itself is in the way
-            vec2 both = ldm_trace(slot, view, x, face).distance;
-            float r = cosine > 0.0 ? both.y : both.x;
+            LdmRay ray;
+            if (!ldm_surface_ray(slot, views[iteration + slot * ldm.batches], x, n, face, ray)) continue;
+            float r = ray.distance;
             vec2 open = vec2(r < k_no_hit ? 0.0 : 1.0, r < most ? 0.0 : 1.0);
             if (falloff == 1 && r < most) open.g = r * r / (most * most);
-            sum += open * abs(cosine);
+            sum += open * ray.cosine;
         }
     }
     imageStore(ldm_openness, texel, vec4(sum, 0.0, 0.0));

@@ -1,5 +1,6 @@
-// The fragments of a batch's maps without a rasterizer: triangles × maps, a work group takes 64 triangles through one map.
-// Small triangles are gone through by one invocation each, large ones by the group together.
+// The fragments of a batch's maps without a rasterizer: triangles × maps, in two rounds without barriers. First an invocation
+// takes a triangle through up to 16 maps; where it is too large for that, it is marked. Then a work group takes each marked
+// one.
 //
 // Coverage is exact and watertight, as a rasterizer's: corners are snapped to 1/256 texel, the signs of the edge functions
 // are those of exact integers, and a centre on an edge belongs to the triangle that the top-left rule names. Depths are
@@ -11,7 +12,7 @@
 #include "lib/scene_textures.glsl"
 #include "ldm/insert.glsl"
 #include "ldm/node.glsl"
-// Behind the counters lie the draws' first triangles (a block of their own would be the ninth).
+// Behind the counters lie the draws' first triangles, and the marks (blocks of their own would be too many).
 #define DRAW_START(i) ldm_counted[8 + (i)]
 #include "lib/draw_of_triangle.glsl"
 
@@ -19,20 +20,20 @@ layout(local_size_x = 64) in;
 
 uniform int batch; // its number
 uniform int draw_count;
-uniform int bands; // the map's rows are divided among so many groups (some drivers cut loops off after 65,535 steps)
+uniform int slot_count;
+uniform int bands; // 0: the first round; else the second, and among how many groups a map's rows are divided (some drivers
+                   // silently end an invocation's loops after 65,535 steps)
 
-const int k_small = 16;     // texels that one invocation looks at
-const int k_unit = 256;     // steps of the snapping in a texel
+const int k_small = 64; // texels that one invocation looks at
+const int k_unit = 256; // steps of the snapping in a texel
 
 struct FlatTriangle {
     ivec2 corners[3]; // counterclockwise
     float depths[3];
-    uint index; // over all draws
+    int draw;
+    uint first;  // of its indices
     bool turned; // corners 1 and 2 are swapped
 };
-
-shared FlatTriangle large[64];
-shared int large_count;
 
 // d × e, whose terms may have 38 bits: as a float, exact but for its rounding.
 float cross_of(ivec2 d, ivec2 e) {
@@ -51,37 +52,50 @@ float cross_of(ivec2 d, ivec2 e) {
     return float(high) * 4294967296.0 + float(low);
 }
 
-// Whether a centre lies on the edge's inner side: `side` is the edge function there.
-bool is_inside(float side, ivec2 edge) {
-    return side > 0.0 || (side == 0.0 && (edge.y < 0 || (edge.y == 0 && edge.x < 0)));
+// Whether a centre lies on an edge's inner side: the sign of `edge` × `to_centre`, by the low 32 bits where those are all.
+bool is_inside(ivec2 edge, ivec2 to_centre) {
+    float rough = float(edge.x) * float(to_centre.y) - float(edge.y) * float(to_centre.x);
+    int low = edge.x * to_centre.y - edge.y * to_centre.x;
+    if (abs(rough) > 1.0e8) return rough > 0.0;
+    return low > 0 || (low == 0 && (edge.y < 0 || (edge.y == 0 && edge.x < 0)));
 }
 
-uint index_at(FlatTriangle t, int draw, int corner) {
-    int k = t.turned && corner > 0 ? 3 - corner : corner;
-    return indices[draws[draw].first_index + 3u * (t.index - DRAW_START(draw)) + uint(k)];
+bool covers(FlatTriangle t, ivec2 centre) {
+    return is_inside(t.corners[1] - t.corners[0], centre - t.corners[0]) && is_inside(t.corners[2] - t.corners[1], centre - t.corners[1]) &&
+           is_inside(t.corners[0] - t.corners[2], centre - t.corners[2]);
 }
 
-FlatTriangle flatten(uint triangle, LdmView view, out float area) {
+uint index_at(FlatTriangle t, int corner) {
+    return indices[t.first + uint(t.turned && corner > 0 ? 3 - corner : corner)];
+}
+
+FlatTriangle load_triangle(uint triangle, out vec3 positions[3]) {
     FlatTriangle t;
-    t.index = triangle;
+    t.draw = draw_of(triangle, draw_count);
+    t.first = draws[t.draw].first_index + 3u * (triangle - DRAW_START(t.draw));
     t.turned = false;
-    int draw = draw_of(triangle, draw_count);
-    mat4 world = draws[draw].world;
+    mat4 world = draws[t.draw].world;
+    for (int i = 0; i < 3; ++i)
+        positions[i] = (world * vec4(vertices[indices[t.first + uint(i)]].position_u.xyz, 1.0)).xyz;
+    return t;
+}
+
+// False without an area.
+bool flatten(inout FlatTriangle t, vec3 positions[3], LdmView view) {
     for (int i = 0; i < 3; ++i) {
-        vec3 p = ldm_project(view, (world * vec4(vertices[index_at(t, draw, i)].position_u.xyz, 1.0)).xyz);
+        vec3 p = ldm_project(view, positions[i]);
         t.corners[i] = ivec2(round(p.xy * float(k_unit)));
         t.depths[i] = p.z;
     }
-    area = cross_of(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]);
-    if (area < 0.0) {
+    float area = cross_of(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]);
+    t.turned = area < 0.0;
+    if (t.turned) {
         ivec2 corner = t.corners[1];
         t.corners[1] = t.corners[2], t.corners[2] = corner;
         float depth = t.depths[1];
         t.depths[1] = t.depths[2], t.depths[2] = depth;
-        t.turned = true;
-        area = -area;
     }
-    return t;
+    return area != 0.0;
 }
 
 // Texels of the band whose centres lie in the box around the triangle: from xy to zw.
@@ -91,67 +105,93 @@ ivec4 texels_of(FlatTriangle t, ivec2 rows) {
     return ivec4(max(from, ivec2(0, rows.x)), min(to, ivec2(ldm.resolution - 1, rows.y)));
 }
 
-void visit(FlatTriangle t, int slot, ivec2 texel) {
+// The fragment of a covered texel.
+void insert_texel(FlatTriangle t, int slot, ivec2 texel) {
     ivec2 centre = texel * k_unit + k_unit / 2;
     ivec2 ab = t.corners[1] - t.corners[0], bc = t.corners[2] - t.corners[1], ca = t.corners[0] - t.corners[2];
     vec3 weight = vec3(cross_of(bc, centre - t.corners[1]), cross_of(ca, centre - t.corners[2]), cross_of(ab, centre - t.corners[0]));
-    if (!is_inside(weight.x, bc) || !is_inside(weight.y, ca) || !is_inside(weight.z, ab)) return;
     float area = cross_of(ab, -ca);
     float depth = (weight.x * t.depths[0] + weight.y * t.depths[1] + weight.z * t.depths[2]) / area;
     weight /= area;
 
-    int draw = draw_of(t.index, draw_count);
-    Material material = materials[draws[draw].material];
+    Material material = materials[draws[t.draw].material];
     vec3 albedo = vec3(0.0);
-    if (material.alpha_cutoff >= 0.0 || ldm.node_words > 3) {
-        Vertex corners[3] = Vertex[3](vertices[index_at(t, draw, 0)], vertices[index_at(t, draw, 1)], vertices[index_at(t, draw, 2)]);
+    bool passes = true;
+    // A loop and not a branch: some software drivers go through all lookups of a branch that no invocation takes.
+    for (bool looks_up = material.alpha_cutoff >= 0.0 || ldm.node_words > 3; looks_up; looks_up = false) {
+        Vertex corners[3] = Vertex[3](vertices[index_at(t, 0)], vertices[index_at(t, 1)], vertices[index_at(t, 2)]);
         TrianglePoint point = triangle_point_of(corners, weight, area / float(k_unit * k_unit));
-        if (material.alpha_cutoff >= 0.0 && alpha_of(material, point) < material.alpha_cutoff) return;
-        if (ldm.node_words > 3) {
+        passes = material.alpha_cutoff < 0.0 || alpha_of(material, point) >= material.alpha_cutoff;
+        for (bool coloured = ldm.node_words > 3; coloured; coloured = false) {
             albedo = material.base_colour.rgb * point.colour.rgb * sample_at_point(material.base_colour_texture, point, 16.0).rgb;
             albedo *= 1.0 - material.metallic * sample_at_point(material.metallic_roughness_texture, point, 16.0).b;
         }
     }
-    vec2 slope = vec2(0.0);
-    if (ldm.node_words > 2) {
-        vec2 rise = vec2(t.depths[1] - t.depths[0], t.depths[2] - t.depths[0]);
-        slope = vec2(dot(rise, vec2(-ca.y, -ab.y)), dot(rise, vec2(ca.x, ab.x))) * (float(k_unit) / area);
-    }
+    if (!passes) return;
+    vec2 rise = vec2(t.depths[1] - t.depths[0], t.depths[2] - t.depths[0]);
+    vec2 slope = vec2(dot(rise, vec2(-ca.y, -ab.y)), dot(rise, vec2(ca.x, ab.x))) * (float(k_unit) / area);
     insert_fragment(uint(ldm_head(slot, texel)), pack_node(depth, slope, albedo));
 }
 
-void main() {
-    int slot = int(gl_WorkGroupID.y), lane = int(gl_LocalInvocationID.x);
+// Every `step`-th of the box's `count` texels, from the `first`. Each invocation looks for its next covered one before all insert.
+void go_through(FlatTriangle t, int slot, ivec4 box, int first, int count, int step) {
+    int width = max(box.z - box.x + 1, 1);
+    for (int i = first; i < count; i += step) {
+        ivec2 texel = box.xy + ivec2(i % width, i / width);
+        while (i < count && !covers(t, texel * k_unit + k_unit / 2)) {
+            i += step;
+            texel = box.xy + ivec2(i % width, i / width);
+        }
+        if (i < count) insert_texel(t, slot, texel);
+    }
+}
+
+int texel_count(ivec4 box) {
+    ivec2 size = max(box.zw - box.xy + 1, ivec2(0));
+    return size.x * size.y;
+}
+
+const int k_maps_each = 16;
+
+int marks_of(uint group, int slot) {
+    return 8 + draw_count + 1 + 2 * (int(group) * slot_count + slot);
+}
+
+// The first round. A triangle's corners are loaded once for all its maps.
+void take_small(uint triangle) {
+    vec3 positions[3];
+    FlatTriangle t = load_triangle(triangle, positions);
+    int from = int(gl_WorkGroupID.y) * k_maps_each, to = min(from + k_maps_each, batch_maps(batch));
+    for (int slot = from; slot < to; ++slot) {
+        if (!flatten(t, positions, views[batch + slot * ldm.batches])) continue;
+        ivec4 box = texels_of(t, ivec2(0, ldm.resolution - 1));
+        int count = texel_count(box);
+        if (count > k_small) atomicOr(ldm_counted[marks_of(triangle / 64u, slot) + int(triangle / 32u & 1u)], 1u << (triangle & 31u));
+        else go_through(t, slot, box, 0, count, 1);
+    }
+}
+
+// The second round, for one map: the marked ones among 64 triangles.
+void take_marked(uint group, int slot, ivec2 rows) {
     LdmView view = views[batch + slot * ldm.batches];
-    int height = (ldm.resolution + bands - 1) / bands;
-    ivec2 rows = int(gl_WorkGroupID.z) * height + ivec2(0, height - 1);
+    for (int word = 0; word < 2; ++word) {
+        for (uint bits = ldm_counted[marks_of(group, slot) + word]; bits != 0u; bits &= bits - 1u) {
+            vec3 positions[3];
+            FlatTriangle t = load_triangle(64u * group + uint(32 * word + findLSB(bits)), positions);
+            flatten(t, positions, view);
+            ivec4 box = texels_of(t, rows);
+            go_through(t, slot, box, int(gl_LocalInvocationID.x), texel_count(box), 64);
+        }
+    }
+}
+
+void main() {
     uint triangles = DRAW_START(draw_count);
-    for (uint first = gl_WorkGroupID.x * 64u; first < triangles; first += gl_NumWorkGroups.x * 64u) {
-        if (lane == 0) large_count = 0;
-        barrier();
-        uint triangle = first + uint(lane);
-        if (triangle < triangles) {
-            float area;
-            FlatTriangle t = flatten(triangle, view, area);
-            ivec4 box = texels_of(t, rows);
-            int width = box.z - box.x + 1, count = width * (box.w - box.y + 1);
-            if (area > 0.0 && box.z >= box.x && box.w >= box.y) {
-                if (count > k_small) {
-                    large[atomicAdd(large_count, 1)] = t;
-                } else {
-                    for (int i = 0; i < count; ++i)
-                        visit(t, slot, box.xy + ivec2(i % width, i / width));
-                }
-            }
-        }
-        barrier();
-        for (int k = 0; k < large_count; ++k) {
-            FlatTriangle t = large[k];
-            ivec4 box = texels_of(t, rows);
-            int width = box.z - box.x + 1, count = width * (box.w - box.y + 1);
-            for (int i = lane; i < count; i += 64)
-                visit(t, slot, box.xy + ivec2(i % width, i / width));
-        }
-        barrier();
+    int height = (ldm.resolution + max(bands, 1) - 1) / max(bands, 1), band = int(gl_WorkGroupID.z);
+    ivec2 rows = ivec2(band * height, min((band + 1) * height, ldm.resolution) - 1);
+    for (uint group = gl_WorkGroupID.x; 64u * group < triangles; group += gl_NumWorkGroups.x) {
+        uint triangle = 64u * group + gl_LocalInvocationID.x;
+        if (bands > 0) take_marked(group, int(gl_WorkGroupID.y), rows);
+        else if (triangle < triangles) take_small(triangle);
     }
 }

@@ -2,10 +2,7 @@
 #define LDM_TRACE_GLSL
 // trace(x, d) in a layered depth map (LDM, section 3.1): the texel that x projects to, the node that is x's own surface,
 // and its neighbours in the list: the surfaces next to x against and along the view, in one walk.
-#include "ldm/views.glsl"
-
-layout(std430) readonly buffer ldm_lists { uint lists[]; };
-layout(std430) readonly buffer ldm_arrays { uint arrays[]; }; //! optional
+#include "ldm/walk.glsl"
 
 uniform int own_surface = 0;      //! {tolerance, nearest} which nodes are x's own surface: those nearer than the tolerance, or the nearest one
 uniform float tolerance = 0.5;    //! [0, 8] (texels) self-intersection: nodes nearer than this along the view are x's own surface
@@ -13,28 +10,6 @@ uniform float normal_offset = 0.0; //! [0, 4] (texels) x moves off its surface b
 uniform bool node_planes = false; //! depths are evaluated on the node's plane at x's place in the texel (needs ldm.nodes=plane), not taken at the texel's middle
 
 const float k_no_hit = 1.0e30;
-
-// Where the walk stands: lists go by links, arrays from word to word.
-struct LdmCursor {
-    uint at, end;
-};
-
-LdmCursor ldm_first(int head) {
-    if (ldm.arrays != 0) return LdmCursor(arrays[head], arrays[head + 1]);
-    return LdmCursor(lists[head], 0u);
-}
-bool ldm_ended(LdmCursor c) {
-    return c.at == c.end;
-}
-// Word of the node: 0 depth, 2 slope, 3 albedo. (Arrays have no links.)
-uint ldm_word(LdmCursor c, int word) {
-    if (ldm.arrays != 0) return arrays[uint(ldm.heads) + 1u + c.at * uint(ldm.node_words - 1) + uint(max(word - 1, 0))];
-    return lists[uint(ldm.heads) + (c.at - 1u) * uint(ldm.node_words) + uint(word)];
-}
-LdmCursor ldm_next(LdmCursor c) {
-    if (ldm.arrays != 0) return LdmCursor(c.at + 1u, c.end);
-    return LdmCursor(ldm_word(c, 1), 0u);
-}
 
 // Depth of a node at `offset` texels from the texel's middle.
 float ldm_depth(LdmCursor c, vec2 offset) {

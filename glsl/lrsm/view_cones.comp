@@ -2,7 +2,7 @@
 // it; red: it takes a share of the cone; towards the colour of its light where it brings some. What lies behind the
 // picture's surfaces is fainter. Each group of invocations first finds the spheres that reach its tile, as bits of a list
 // in shared memory, so that they are drawn in their order.
-#include "lib/frame.glsl"
+#include "lib/view_segment.glsl"
 #include "lrsm/cone_record.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
@@ -23,12 +23,7 @@ uniform float picture = 0.5;     //! [0, 1] brightness of the picture behind
 
 const int k_words = k_most_recorded_spheres / 32; // a cone
 shared uint reaching[k_most_recorded_cones * k_words];
-shared vec4 axes[k_most_recorded_cones]; // pixels: from, to; w < 0 in axis_depth: not to be drawn
-shared vec2 axis_depth[k_most_recorded_cones]; // 1/distance along the view, of both ends
-
-vec3 decoded(vec3 c) {
-    return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
-}
+shared ViewSegment axes[k_most_recorded_cones];
 
 // Centre in pixels, radius in pixels, distance along the view; radius 0: not in view.
 vec4 circle_of(RecordedSphere sphere) {
@@ -49,16 +44,8 @@ vec3 sphere_colour(RecordedSphere sphere) {
 }
 
 void find_axis(int i) {
-    RecordedCone cone = cones[i];
-    vec4 from = view_projection * vec4(inspected.apex, 1.0);
-    vec4 to = view_projection * vec4(inspected.apex + cone.end * cone.direction, 1.0);
-    axis_depth[i] = vec2(-1.0);
-    if (max(from.w, to.w) <= near_plane || (only_cone >= 0 && only_cone != i)) return;
-    if (from.w < near_plane) from = mix(to, from, (to.w - near_plane) / (to.w - from.w));
-    if (to.w < near_plane) to = mix(from, to, (from.w - near_plane) / (from.w - to.w));
-    axes[i] = vec4(from.xy / from.w, to.xy / to.w) * 0.5 + 0.5;
-    axes[i] *= vec4(resolution, resolution);
-    axis_depth[i] = 1.0 / vec2(from.w, to.w);
+    axes[i] = view_segment(inspected.apex, inspected.apex + cones[i].end * cones[i].direction);
+    if (only_cone >= 0 && only_cone != i) axes[i].nearness = vec2(-1.0);
 }
 
 void main() {
@@ -86,12 +73,9 @@ void main() {
     float depth = texelFetch(gbuffer_depth, pixel, 0).r;
     float surface = depth > 0.0 ? near_plane / depth : 1.0e30;
     for (int i = 0; i < cone_total; ++i) {
-        if (axis_depth[i].x < 0.0) continue;
-        vec2 along = axes[i].zw - axes[i].xy;
-        float share = clamp(dot(at - axes[i].xy, along) / max(dot(along, along), 1.0e-6), 0.0, 1.0);
-        float cover = clamp(line_width - distance(at, axes[i].xy + share * along), 0.0, 1.0);
+        bool behind;
+        float cover = segment_cover(axes[i], at, line_width, surface, behind);
         if (cover <= 0.0) continue;
-        bool behind = 1.0 / mix(axis_depth[i].x, axis_depth[i].y, share) > 1.01 * surface;
         colour = mix(colour, mix(vec3(0.7), vec3(1.0, 0.6, 0.1), cones[i].occlusion), cover * (behind ? 0.15 : 0.6));
     }
     for (int word = 0; word < cone_total * k_words; ++word) {
@@ -105,9 +89,6 @@ void main() {
             colour = mix(colour, sphere_colour(sphere), cover);
         }
     }
-    // The pixel itself: a cross with a gap.
-    vec2 from_pixel = abs(at - (vec2(inspected.pixel) + 0.5));
-    if (min(from_pixel.x, from_pixel.y) < 0.6 && max(from_pixel.x, from_pixel.y) > 3.0 && max(from_pixel.x, from_pixel.y) < 10.0)
-        colour = vec3(1.0, 1.0, 0.2);
+    if (on_pixel_cross(at, inspected.pixel)) colour = vec3(1.0, 1.0, 0.2);
     imageStore(debug_cones_view, pixel, vec4(colour, 1.0));
 }

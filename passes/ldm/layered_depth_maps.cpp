@@ -18,7 +18,7 @@ class LayeredDepthMapsPass : public Pass {
         for (const char* name : {"start_batch", "finish_batch", "list_lengths", "write_arrays"})
             description.program(name, {std::string("ldm/") + name + ".comp"});
         describe_prefix_sum(description);
-        for (const char* name : {"batch", "draw_count", "bands"})
+        for (const char* name : {"batch", "draw_count", "slot_count", "bands", "marks_from"})
             description.constant(name);
         ParameterSet& p = description.parameters;
         p.add("maps", maps_, {1, 4096}, "", "N: axes, and so maps; each serves both of its directions");
@@ -53,8 +53,11 @@ class LayeredDepthMapsPass : public Pass {
         d.creates_buffer("ldm.views", std::to_string(maps_), sizeof(LdmView)).overwritten = true;
         d.creates_buffer("ldm.info", "1", sizeof(LdmInfo)).overwritten = true;
         d.creates_buffer("ldm.lists", std::to_string(texels * slots_ + capacity_ * node_words()), 4).overwritten = true;
-        // Behind the counters: the draws' first triangles (see ldm/build.comp).
-        d.creates_buffer("ldm.counts", std::to_string(k_counts + d.facts.instances + 1), 4);
+        // Behind the counters: the draws' first triangles, and a word for each group of triangles in each map of a
+        // batch (see ldm/build.comp).
+        int64_t groups = route_ == Route::compute ? groups_of(int64_t(d.facts.triangles)) + 1 : 0;
+        d.creates_buffer("ldm.counts", std::to_string(k_counts + int64_t(d.facts.instances) + 1 + 2 * groups * slots_),
+                         4);
         d.creates_buffer("ldm.batches", std::to_string(batches_), 4);
         for (const char* name : {"ldm.views", "ldm.info", "ldm.lists"})
             d.writes(name, Usage::storage);
@@ -91,6 +94,7 @@ class LayeredDepthMapsPass : public Pass {
         if (c.iteration == 0) write_views(c);
         c.set("batch", c.iteration);
         int heads = slots_ * resolution_ * resolution_, for_each_head = std::min(heads, 1 << 22);
+        c.set("marks_from", int(k_counts + c.scene().draw_list().size() + 1));
         c.dispatch("start_batch", {for_each_head, 1, 1});
         wait();
         build(c, (maps_ - c.iteration + batches_ - 1) / batches_);
@@ -129,15 +133,21 @@ class LayeredDepthMapsPass : public Pass {
             starts.push_back(starts.back() + draw.index_count / 3);
         if (c.iteration == 0)
             c.buffer("ldm.counts").update(k_counts * sizeof(uint32_t), starts.size() * sizeof(uint32_t), starts.data());
-        // A group looks at up to 64 triangles of up to so many texels, a sixty-fourth of them by each invocation.
-        constexpr int k_band_texels = 16384, k_most_groups = 65535, k_group = 64;
-        int bands = std::min((resolution_ * resolution_ + k_band_texels - 1) / k_band_texels, resolution_);
-        int groups = int(std::min<int64_t>((int64_t(starts.back()) + k_group - 1) / k_group, k_most_groups));
-        if (groups == 0) return;
+        if (starts.back() == 0) return;
+        int groups = int(std::min<int64_t>(groups_of(starts.back()), 65535));
         c.set("draw_count", int(draws.size()));
+        c.set("slot_count", slots_);
+        c.set("bands", 0);
+        c.dispatch("build_by_compute", {groups * k_group, (slots + k_maps_each - 1) / k_maps_each, 1});
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        // In the second round an invocation looks at a sixty-fourth of up to 64 triangles of up to so many texels.
+        constexpr int k_band_texels = 16384;
+        int bands = std::min((resolution_ * resolution_ + k_band_texels - 1) / k_band_texels, resolution_);
         c.set("bands", bands);
         c.dispatch("build_by_compute", {groups * k_group, slots, bands});
     }
+    static constexpr int k_group = 64, k_maps_each = 16; ///< triangles and maps, as in ldm/build.comp
+    static int64_t groups_of(int64_t triangles) { return (triangles + k_group - 1) / k_group; }
 
     void write_views(PassContext& c) {
         std::vector<LdmView> views;

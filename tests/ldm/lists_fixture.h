@@ -23,9 +23,10 @@ struct LdmFragment {
 
 /// The lists of the newest batch, read back.
 struct LdmLists {
-    explicit LdmLists(const SceneRunner& run)
-        : info(run.read_buffer<LdmInfo>("ldm.info")[0]), views(run.read_buffer<LdmView>("ldm.views")),
-          words(run.read_buffer<uint32_t>(info.arrays ? "ldm.arrays" : "ldm.lists")) {}
+    explicit LdmLists(const SceneRunner& run) : LdmLists(run.graph) {}
+    explicit LdmLists(const Graph& graph)
+        : info(graph.buffer("ldm.info")->read_all<LdmInfo>()[0]), views(graph.buffer("ldm.views")->read_all<LdmView>()),
+          words(graph.buffer(info.arrays ? "ldm.arrays" : "ldm.lists")->read_all<uint32_t>()) {}
 
     LdmInfo info;
     std::vector<LdmView> views;
