@@ -28,7 +28,7 @@ package_of() {
 # copy_licence PACKAGE BUNDLE
 copy_licence() {
     [[ -f /usr/share/doc/$1/copyright ]] || fail "no licence found for the package '$1' (a bundle can be made on Debian only)"
-    cp "/usr/share/doc/$1/copyright" "$2/licenses/$1.txt"
+    gzip -9 -n -c "/usr/share/doc/$1/copyright" >"$2/licenses/$1.txt.gz"
 }
 
 bundle() {
@@ -95,6 +95,6 @@ A bundle of Bounce, made from commit $commit.
 It needs x86-64 Linux with ${glibc/GLIBC_/glibc } or newer, and a driver with OpenGL 4.6 and EGL. Nothing has to be installed.
 Start it with ./bounce (./bounce --help lists its commands). The folder may be moved.
 
-LICENSE is the licence of Bounce; licenses/ holds those of the libraries that it is built with.
+LICENSE is the licence of Bounce; licenses/ holds those of the libraries that it is built with (zcat shows them).
 ABOUT
 }

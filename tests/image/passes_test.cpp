@@ -82,7 +82,10 @@ TEST_F(Passes, EachRunsInSomeGraphWithoutErrorsAndWithFiniteResults) {
         options.check_nan = true;
         Session session(options);
         for (const std::string& name : session.graph().model().parameter_names()) // large maps are not what is tested
-            if (name == "shadow_maps.resolution") session.set_parameter(name, "128", ParameterOrigin::panel);
+            for (const auto& [large, smaller] :
+                 {std::pair("shadow_maps.resolution", "128"), std::pair("ldm.maps", "16"),
+                  std::pair("ldm.resolution", "32"), std::pair("rsm.resolution", "64")})
+                if (name == large) session.set_parameter(name, smaller, ParameterOrigin::panel);
         for (int frame = 0; frame < 2; ++frame) {
             if (frame) session.advance();
             session.render();
