@@ -8,10 +8,12 @@ layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 layout(r32ui) uniform uimage3D voxels_place;
 layout(r8ui) uniform uimage3D voxels_flags;
 layout(r8ui) writeonly uniform uimage3D voxels_bricks;
-layout(std430) buffer voxels_sums { uint sums[]; };      //! optional
+layout(std430) buffer voxels_sums { uint sums[]; };            //! optional
+layout(std430) buffer voxels_plane_sums { uint plane_sums[]; }; //! optional
 
 uniform uint kind; // k_static or k_dynamic
-uniform int averaging; // {average, last_writer, sum}
+uniform int averaging; // {average, last_writer, sum, gather}
+uniform bool plane_sums_kept; // voxels.plane_sums is there
 
 shared uint found, first, occupied;
 
@@ -40,8 +42,10 @@ void main() {
     list[index] = entry_of(voxel);
     imageStore(voxels_place, voxel, uvec4(index + 1u));
     imageStore(voxels_flags, voxel, uvec4(kind));
-    if (averaging == 1) sums[index] = mark - 1u ;
+    if (averaging == 1) sums[index] = mark - 1u;
+    if (averaging == 3) sums[index] = 0u;
     if (averaging == 2)
         for (uint i = 0u; i < 12u; ++i)
             sums[index * 12u + i] = 0u;
+    if (plane_sums_kept) plane_sums[2u * index] = plane_sums[2u * index + 1u] = 0u;
 }

@@ -12,10 +12,11 @@ namespace bounce {
 class VoxelizationPass : public Pass {
   public:
     void describe(PassDescription& description) override {
-        for (const char* name : {"voxelize", "compact", "finish_list", "clear_dynamic", "forget_dynamic", "resolve"})
+        for (const char* name :
+             {"mark", "voxelize", "compact", "finish_list", "clear_dynamic", "forget_dynamic", "resolve"})
             description.program(name, {std::string("dvs/") + name + ".comp"});
         description.program("raster", {"dvs/voxelize.vert", "dvs/voxelize.geom", "dvs/voxelize.frag"});
-        for (const char* name : {"resolution_of_grid", "operation", "kind", "emission_scale"})
+        for (const char* name : {"resolution_of_grid", "operation", "kind", "emission_scale", "plane_sums_kept"})
             description.constant(name);
         ParameterSet& p = description.parameters;
         p.add("resolution", resolution_, {8, 512}, "voxels", "along each side of the grid; a power of two");
@@ -23,9 +24,18 @@ class VoxelizationPass : public Pass {
             "route", route_, {"raster", "compute"},
             "raster: conservative, along the dominant axis, as published; compute: every voxel that a triangle "
             "overlaps, without a rasterizer");
-        p.add_choice("averaging", averaging_, {"average", "last_writer", "sum"},
-                     "how the fragments of a voxel become one. average: packed running means by compare-and-swap, as "
-                     "published; last_writer: one triangle's surface; sum: integer sums, the same every run");
+        p.add_choice(
+            "averaging", averaging_, {"average", "last_writer", "sum", "gather"},
+            "how the fragments of a voxel become one. average: packed running means by compare-and-swap, as "
+            "published; last_writer: one triangle's surface; sum: integer sums, the same every run; gather: each voxel "
+            "makes those sums itself, from a list of its triangles");
+        p.add_choice("emission_share", emission_share_, {"mean", "covered"},
+                     "averaging=sum or gather. mean: emission is averaged over triangles, like all else; covered: it "
+                     "counts by the "
+                     "part of the voxel's mean plane that emitters cover");
+        p.add("planes", planes_,
+              "all but averaging=average: a voxel also knows where its mean plane lies, and exact hits are with "
+              "that plane; off: the whole voxel blocks");
         p.add("static_once", static_once_,
               "static geometry is voxelized when it changes only, as published; off: all of it in each frame");
         p.add("room", room_, {1, 256}, "",
@@ -66,9 +76,20 @@ class VoxelizationPass : public Pass {
         } else {
             list("voxels.sums", room, averaging_ == Averaging::sum ? 12 * 4 : 4);
         }
+        // A fragment each; triangles smaller than a voxel may lie in several.
+        if (averaging_ == Averaging::gather)
+            list("voxels.links", std::to_string(2 * face * room_ + 4 * int64_t(d.facts.triangles)), 8);
+        plane_sums_ =
+            averaging_ == Averaging::sum && (planes_ || (emission_ && emission_share_ == EmissionShare::covered));
+        if (plane_sums_) list("voxels.plane_sums", room, 2 * 4);
         d.creates_buffer("voxels.draw_starts", std::to_string(d.facts.instances + 1), 4).persistent = true;
         d.writes("voxels.draw_starts", Usage::storage);
-        d.uses(route_ == Route::raster ? "raster" : "voxelize");
+        if (route_ == Route::raster) {
+            d.uses("raster");
+        } else {
+            if (averaging_ != Averaging::average) d.uses("mark");
+            if (averaging_ == Averaging::average || averaging_ == Averaging::sum) d.uses("voxelize");
+        }
         for (const char* program : {"compact", "finish_list", "resolve"})
             d.uses(program);
         bool dynamic = d.facts.dynamic_instances > 0;
@@ -83,6 +104,7 @@ class VoxelizationPass : public Pass {
             brightest = std::max({brightest, m.emission.x, m.emission.y, m.emission.z});
         c.set("resolution_of_grid", resolution_);
         c.set("emission_scale", emission_ ? brightest : 0.0f);
+        c.set("plane_sums_kept", plane_sums_);
 
         std::vector<char> state = static_state(c);
         if (state != state_) {
@@ -100,7 +122,8 @@ class VoxelizationPass : public Pass {
 
   private:
     enum class Route { raster, compute };
-    enum class Averaging { average, last_writer, sum };
+    enum class Averaging { average, last_writer, sum, gather };
+    enum class EmissionShare { mean, covered };
     static constexpr int k_static = 1, k_dynamic = 2; // as in dvs/list.glsl
 
     static void wait() {
@@ -116,8 +139,9 @@ class VoxelizationPass : public Pass {
             state.insert(state.end(), bytes, bytes + sizeof(value));
         };
         if (!static_once_) add(++frames_);
-        add(resolution_), add(route_), add(averaging_), add(room_),
+        add(resolution_), add(route_), add(averaging_), add(emission_share_), add(planes_), add(room_),
             add(c.number(c.plan().id + ".leaf_threshold").value_or(0)),
+            add(c.number(c.plan().id + ".plane_coherence").value_or(0)),
             add(c.number(c.plan().id + ".fill").value_or(0));
         for (const GpuDraw& draw : c.scene().draw_list()) {
             if (draw.flags & 1u) continue;
@@ -152,7 +176,7 @@ class VoxelizationPass : public Pass {
         starts.resize(buffer.bytes() / sizeof(uint32_t), starts.back());
         buffer.update(0, starts.size() * sizeof(uint32_t), starts.data());
         int triangles = int(starts.back());
-        auto visit = [&] {
+        auto visit = [&](const char* by_compute) {
             if (route_ == Route::raster) {
                 Targets none;
                 none.size = glm::ivec2(resolution_);
@@ -164,12 +188,12 @@ class VoxelizationPass : public Pass {
                 return;
             }
             constexpr int k_lanes = 16, k_row = 65536; // as in voxel/triangle_voxels.glsl
-            c.dispatch("voxelize", {std::min(triangles, k_row) * k_lanes, (triangles + k_row - 1) / k_row, 1});
+            c.dispatch(by_compute, {std::min(triangles, k_row) * k_lanes, (triangles + k_row - 1) / k_row, 1});
         };
         c.set("kind", kind);
         c.set("operation", averaging_ == Averaging::average ? 2 : 0);
         wait();
-        visit();
+        visit(averaging_ == Averaging::average ? "voxelize" : "mark");
         wait();
         c.dispatch("compact", glm::ivec3(resolution_));
         wait();
@@ -177,7 +201,11 @@ class VoxelizationPass : public Pass {
         wait();
         if (averaging_ == Averaging::sum) {
             c.set("operation", 1);
-            visit();
+            visit("voxelize");
+            wait();
+        } else if (averaging_ == Averaging::gather) {
+            c.set("operation", 3);
+            visit("mark");
             wait();
         }
         c.dispatch_indirect("resolve", "voxels.counts");
@@ -187,7 +215,8 @@ class VoxelizationPass : public Pass {
     int resolution_ = 128;
     Route route_ = Route::raster;
     Averaging averaging_ = Averaging::average;
-    bool static_once_ = true, emission_ = false;
+    EmissionShare emission_share_ = EmissionShare::mean;
+    bool static_once_ = true, emission_ = false, planes_ = false, plane_sums_ = false;
     int room_ = 32;
     std::vector<char> state_; ///< what the static voxels were made of; empty: there are none
     uint64_t frames_ = 0;
