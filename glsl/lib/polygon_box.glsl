@@ -7,7 +7,8 @@ const int k_most_corners = 10;
 
 float area_in_voxel(vec3 polygon[k_most_corners], int count) {
     vec3 clipped[k_most_corners];
-    for (int side = 0; side < 6 && count > 2; ++side) {
+    int sides = 6 + min(count, 0); // six, which compilers cannot know: unrolled, the loop takes seconds to compile
+    for (int side = 0; side < sides; ++side) {
         int axis = side >> 1, kept = 0;
         float outward = (side & 1) == 0 ? 1.0 : -1.0;
         for (int i = 0; i < count; ++i) {
