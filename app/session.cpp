@@ -92,7 +92,7 @@ void Session::resize(glm::ivec2 size) {
     has_last_view_ = false;
 }
 
-void Session::render() {
+void Session::render(bool whole) {
     state_ = evaluate_shot(*shot_, frame_);
     if (scene_dirty_) {
         facts_ = shot_facts(*shot_);
@@ -121,6 +121,11 @@ void Session::render() {
 
     FrameInputs inputs{gpu_scene_.get(), &facts_, c};
     graph_->execute(inputs);
+    constexpr int k_most_tries = 8; // each grows to what the one before had wanted
+    for (int i = 0; whole && i < k_most_tries && graph_->outgrown(); ++i) {
+        graph_->prepare(facts_, size_);
+        graph_->execute(inputs);
+    }
     last_view_projection_ = c.view_projection;
     has_last_view_ = true;
     rendered_frame_ = frame_;

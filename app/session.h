@@ -67,8 +67,10 @@ class Session {
     glm::ivec2 size() const { return size_; }
     void resize(glm::ivec2 size);
 
-    /// Plans and renders the present frame. Throws Error only when there never was a good plan.
-    void render();
+    /// Plans and renders the present frame. Throws Error only when there never was a good plan. `whole`: waits for what
+    /// the passes counted, and renders again with more room as long as one had too little (the window shows a badge
+    /// instead, and has the room a frame later).
+    void render(bool whole = false);
     /// Polls the watched files of graph and shaders. Returns true when something was reloaded.
     bool poll_files() { return graph_->poll_files(); }
     const SceneState& scene_state() const { return state_.scene; }

@@ -3,6 +3,7 @@
 #include "app/capture.h"
 #include "core/image.h"
 
+#include <cstdlib>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -22,7 +23,8 @@ static double mib(uint64_t bytes) {
 
 std::string timing_table(const Session& session) {
     const Graph& graph = session.graph();
-    std::string out = fmt::format("{:<24} {:>10} {:>18} {:>10}\n", "pass", "GPU ms", "10 … 90 %", "MiB");
+    std::string out = fmt::format("{:<24} {:>10} {:>18} {:>10}\n", "pass",
+                                  std::getenv("BOUNCE_CPU_TIME") ? "CPU ms" : "GPU ms", "10 … 90 %", "MiB");
     for (const PlanPass& pass : graph.plan().passes) {
         PassTiming t = graph.timing(pass.id);
         out += fmt::format("{:<24} {:>10.3f} {:>8.3f} … {:>7.3f} {:>10.2f}\n", pass.id, t.median, t.low, t.high,

@@ -15,8 +15,8 @@ namespace bounce {
 namespace {
 
 struct ChartArguments {
-    std::vector<std::string> shots, sets, merge;
-    std::string graphs = k_default_graph, sweep, size = "320x180", output, shard;
+    std::vector<std::string> shots, sets, merge, parts;
+    std::string graphs = k_default_graph, sweep, size = "320x180", output, shard, against;
     int warm_up = 3, frames = 10, samples = 0, device = -1;
     double noise = 0.01;
 };
@@ -36,7 +36,7 @@ std::pair<int, int> parse_shard(const std::string& text) {
 int run(const ChartArguments& a) {
     if (!a.merge.empty()) {
         std::vector<std::filesystem::path> folders(a.merge.begin(), a.merge.end());
-        merge_charts(folders, a.output);
+        merge_charts(folders, a.output, a.against);
         fmt::print("{}/chart.html\n", a.output);
         return 0;
     }
@@ -52,6 +52,7 @@ int run(const ChartArguments& a) {
     if (!a.sweep.empty()) combinations = load_sweep(a.sweep).combinations();
     ChartPlan plan;
     plan.folder = a.output;
+    plan.against = a.against;
     std::tie(plan.shard, plan.shards) = parse_shard(a.shard);
     for (const std::string& shot : a.shots) {
         for (const std::string& graph : split(a.graphs, ',')) {
@@ -67,6 +68,7 @@ int run(const ChartArguments& a) {
                 task.frames = a.frames;
                 task.reference_noise = a.noise;
                 task.reference_samples = a.samples;
+                task.parts = a.parts;
                 plan.tasks.push_back(task);
             }
         }
@@ -90,6 +92,12 @@ void add_chart_command(CLI::App& app, CommandFunction& chosen) {
     command->add_option("--graphs,-g", a->graphs, "graphs, separated by commas")->capture_default_str();
     command->add_option("--sweep", a->sweep, "a sweep: name or .json (base values and lists to permute)");
     command->add_option("--set", a->sets, "a parameter for every point: pass.name=value")->allow_extra_args(false);
+    command
+        ->add_option(
+            "--resource", a->parts,
+            "compare this part (out.ambient_occlusion) instead of what the graph's transport says; repeatable: "
+            "their sum")
+        ->allow_extra_args(false);
     command->add_option("--size", a->size, "WxH of every picture")->capture_default_str();
     command->add_option("--warmup", a->warm_up, "frames before timing starts")->capture_default_str();
     command->add_option("--frames", a->frames, "frames that are timed")->capture_default_str();
@@ -97,6 +105,8 @@ void add_chart_command(CLI::App& app, CommandFunction& chosen) {
     command->add_option("--spp", a->samples, "samples a pixel of the references, instead of --noise");
     command->add_option("--device", a->device, "which EGL device");
     command->add_option("--shard", a->shard, "i/n: measure only every n-th point, from the i-th (0 … n − 1)");
+    command->add_option("--against", a->against,
+                        "draw the error over this parameter (d_max, or hbao_dmax.d_max) instead of over time");
     command->add_option("--merge", a->merge, "join the points of these folders instead of measuring");
     command->add_option("-o,--output", a->output, "the folder for chart.csv, .json, .svg, .html and the points")
         ->required();

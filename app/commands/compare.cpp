@@ -28,7 +28,9 @@ nlohmann::ordered_json figures_json(const ErrorFigures& f) {
             {"mean", f.mean},
             {"reference_mean", f.reference_mean},
             {"bias", f.bias},
+            {"mean_difference", f.mean_difference()},
             {"rmse", f.rmse},
+            {"rmse_denoised", f.rmse_denoised()},
             {"relative_rmse", f.relative_rmse},
             {"relative_rmse_denoised", f.relative_rmse_denoised},
             {"reference_noise", f.reference_noise},
@@ -72,6 +74,10 @@ void print_table(const LayerComparison& comparison, const std::vector<SurfaceCom
     for (const PartComparison& part : comparison.parts) {
         fmt::print("{} {:7.4f} {:7.4f}\n", row(part.part.empty() ? "(picture)" : part.part, part.figures), part.ssim,
                    part.flip);
+        if (part.part.find("ambient_occlusion") != std::string::npos) {
+            fmt::print("  in AO units: bias {:+.4f}, RMSE {:.4f}, without the reference's noise {:.4f}\n",
+                       part.figures.mean_difference(), part.figures.rmse, part.figures.rmse_denoised());
+        }
     }
     for (const SurfaceComparison& surface : surfaces) {
         fmt::print("{}\n",

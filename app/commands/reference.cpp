@@ -1,6 +1,7 @@
 // bounce reference: the path-traced truth of a shot, to a file.
 #include "app/capture.h"
 #include "app/commands/command.h"
+#include "app/experiments/transport.h"
 #include "app/progress.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -22,7 +23,7 @@ namespace {
 
 struct ReferenceArguments {
     std::string shot, output, resource, size;
-    std::string bounces = "unlimited";
+    std::string bounces = "unlimited", occlusion_falloff = "none";
     int samples = 0, frame = 0;
     double noise = 0;
     float exposure = 0;
@@ -154,6 +155,7 @@ int reference(ReferenceArguments arguments) {
     check_output_path(arguments.output);
     check_resource(arguments.resource);
     arguments.settings.bounces = parse_bounces(arguments.bounces);
+    arguments.settings.occlusion_falloff = occlusion_falloff(arguments.occlusion_falloff);
     Shot shot = load_shot(arguments.shot);
     apply_size(arguments.size, shot);
 
@@ -223,6 +225,10 @@ void add_reference_command(CLI::App& app, CommandFunction& chosen) {
                      "d_max of out.ambient_occlusion_dmax, as a share of the scene's diagonal")
         ->capture_default_str()
         ->check(CLI::Range(1e-6, 1e6));
+    command
+        ->add_option("--occlusion-falloff", a->occlusion_falloff,
+                     "within d_max an occluder at d counts fully (none) or by 1 - (d/d_max)^2 (quadratic)")
+        ->capture_default_str();
     command->add_option("--exposure", a->exposure, "stops, for a .png of the whole picture")->capture_default_str();
     command->add_option("--seed", a->settings.seed, "another seed is an independent image")->capture_default_str();
     command->add_option("--threads", a->settings.threads, "0 = all")->check(CLI::NonNegativeNumber);

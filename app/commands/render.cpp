@@ -64,7 +64,7 @@ int render(const RenderArguments& arguments) {
     for (int frame = 0; frame < arguments.frames; ++frame) {
         if (arguments.watch) session.poll_files();
         if (frame > 0) session.advance();
-        session.render();
+        session.render(true);
         if (!arguments.watch) refuse_broken(session);
         if (every_frame) write_picture(session, numbered(arguments.output, frame), arguments.resource);
         progress.update(double(frame + 1) / arguments.frames);

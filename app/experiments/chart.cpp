@@ -52,9 +52,13 @@ void run_chart(const ChartPlan& plan, const std::function<void(const std::string
         try {
             ChartPoint point = measure_point(*task, say);
             write_file_atomically(path, point_to_json(point));
-            say(fmt::format("{}/{} {}: {:.3g} ms, relative RMSE {:.2f} %, bias {:+.2f} %", done, mine.size(),
-                            task->label(), point.total_ms, 100 * point.same_transport.relative_rmse,
-                            100 * point.same_transport.bias));
+            const PointError& e = point.same_transport;
+            const std::string told =
+                point.absolute()
+                    ? fmt::format("RMSE {:.4f} ({:.4f} without the reference's noise), bias {:+.4f} in AO units",
+                                  e.rmse, e.rmse_without_noise, e.mean - e.reference_mean)
+                    : fmt::format("relative RMSE {:.2f} %, bias {:+.2f} %", 100 * e.relative_rmse, 100 * e.bias);
+            say(fmt::format("{}/{} {}: {:.3g} ms, {}", done, mine.size(), task->label(), point.total_ms, told));
         } catch (const Error& error) {
             errors.add(task->label() + ": " + error.what());
             say(fmt::format("{}/{} {}: {}", done, mine.size(), task->label(), error.what()));
@@ -65,11 +69,11 @@ void run_chart(const ChartPlan& plan, const std::function<void(const std::string
         wanted.insert(task.key());
     std::vector<ChartPoint> points = load_points(plan.folder);
     std::erase_if(points, [&](const ChartPoint& point) { return !wanted.contains(point.key); });
-    if (!points.empty()) write_report(points, plan.folder);
+    if (!points.empty()) write_report(points, plan.folder, plan.against);
     errors.throw_if_any("chart");
 }
 
-void merge_charts(const std::vector<fs::path>& folders, const fs::path& folder) {
+void merge_charts(const std::vector<fs::path>& folders, const fs::path& folder, const std::string& against) {
     for (const fs::path& from : folders) {
         if (!fs::is_directory(from / "points"))
             throw Error(fmt::format("'{}' is no chart's folder: there is no points/ in it", from.string()));
@@ -81,7 +85,7 @@ void merge_charts(const std::vector<fs::path>& folders, const fs::path& folder) 
     }
     std::vector<ChartPoint> points = load_points(folder);
     if (points.empty()) throw Error("there are no points to merge");
-    write_report(points, folder);
+    write_report(points, folder, against);
 }
 
 } // namespace bounce

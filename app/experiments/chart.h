@@ -11,6 +11,7 @@ namespace bounce {
 struct ChartPlan {
     std::vector<PointTask> tasks; ///< in a fixed order
     std::filesystem::path folder;
+    std::string against;       ///< draw errors over this parameter: see svg_scatter
     int shard = 0, shards = 1; ///< this run does the tasks with index mod shards = shard
 };
 
@@ -19,7 +20,8 @@ struct ChartPlan {
 void run_chart(const ChartPlan& plan, const std::function<void(const std::string&)>& say);
 
 /// Copies the points of other folders into `folder` and writes the report over all of them. Throws Error.
-void merge_charts(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& folder);
+void merge_charts(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& folder,
+                  const std::string& against = "");
 
 /// The points of a folder, sorted by shot, graph and values. Damaged files are an Error.
 std::vector<ChartPoint> load_points(const std::filesystem::path& folder);

@@ -1,5 +1,6 @@
 #include "app/experiments/chart_point.h"
 
+#include "app/experiments/transport.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -29,6 +30,8 @@ std::string PointTask::command() const {
 
 std::string PointTask::key() const {
     std::string text = fmt::format("{} {} {} {}", command(), frames, reference_noise, reference_samples);
+    for (const std::string& part : parts)
+        text += " " + part;
     // FNV-1a, 64 bits: short, stable across machines and versions of the standard library.
     uint64_t hash = 14695981039346656037ull;
     for (unsigned char c : text)
@@ -37,7 +40,10 @@ std::string PointTask::key() const {
 }
 
 static ordered_json error_json(const PointError& e) {
-    return {{"bias", e.bias},
+    return {{"mean", e.mean},
+            {"reference_mean", e.reference_mean},
+            {"rmse_without_noise", e.rmse_without_noise},
+            {"bias", e.bias},
             {"rmse", e.rmse},
             {"relative_rmse", e.relative_rmse},
             {"relative_mse", e.relative_mse},
@@ -48,8 +54,19 @@ static ordered_json error_json(const PointError& e) {
 }
 
 static PointError error_of(const ordered_json& j) {
-    return {j.at("bias"), j.at("rmse"), j.at("relative_rmse"), j.at("relative_mse"),
-            j.at("p99"),  j.at("flip"), j.at("ssim"),          j.at("reference_noise")};
+    PointError e;
+    e.mean = j.value("mean", 0.0); // points of before have none
+    e.reference_mean = j.value("reference_mean", 0.0);
+    e.rmse_without_noise = j.value("rmse_without_noise", 0.0);
+    e.bias = j.at("bias");
+    e.rmse = j.at("rmse");
+    e.relative_rmse = j.at("relative_rmse");
+    e.relative_mse = j.at("relative_mse");
+    e.p99 = j.at("p99");
+    e.flip = j.at("flip");
+    e.ssim = j.at("ssim");
+    e.reference_noise = j.at("reference_noise");
+    return e;
 }
 
 std::string point_to_json(const ChartPoint& p) {
@@ -79,6 +96,8 @@ std::string point_to_json(const ChartPoint& p) {
     for (const auto& [id, reason] : p.declined)
         j["declined"].push_back({{"id", id}, {"reason", reason}});
     j["transport_bounces"] = p.transport_bounces;
+    j["parts"] = p.parts;
+    if (!p.task.parts.empty()) j["compared_parts"] = p.task.parts;
     j["same_transport"] = error_json(p.same_transport);
     j["full"] = error_json(p.full);
     j["kept_share"] = p.kept_share;
@@ -112,6 +131,8 @@ ChartPoint point_from_json(const std::string& text, const std::string& where) {
         for (const auto& d : j.at("declined"))
             p.declined.emplace_back(d.at("id"), d.at("reason"));
         p.transport_bounces = j.at("transport_bounces");
+        p.parts = j.value("parts", std::vector<std::string>{});
+        p.task.parts = j.value("compared_parts", std::vector<std::string>{});
         p.same_transport = error_of(j.at("same_transport"));
         p.full = error_of(j.at("full"));
         p.kept_share = j.at("kept_share");
@@ -125,14 +146,20 @@ ChartPoint point_from_json(const std::string& text, const std::string& where) {
     }
 }
 
+bool ChartPoint::absolute() const {
+    return only_occlusion(parts);
+}
+
+double ChartPoint::shown_error() const {
+    return absolute() ? same_transport.rmse : same_transport.relative_rmse;
+}
+
 void mark_pareto(std::vector<ChartPoint>& points) {
     for (ChartPoint& point : points) {
         point.on_front = std::none_of(points.begin(), points.end(), [&](const ChartPoint& other) {
             if (other.task.shot != point.task.shot) return false;
-            bool no_worse = other.total_ms <= point.total_ms &&
-                            other.same_transport.relative_rmse <= point.same_transport.relative_rmse;
-            bool better = other.total_ms < point.total_ms ||
-                          other.same_transport.relative_rmse < point.same_transport.relative_rmse;
+            bool no_worse = other.total_ms <= point.total_ms && other.shown_error() <= point.shown_error();
+            bool better = other.total_ms < point.total_ms || other.shown_error() < point.shown_error();
             return no_worse && better;
         });
     }

@@ -20,6 +20,7 @@ struct PointTask {
     double reference_noise = 0.01;
     int reference_samples = 0; ///< above 0: instead of the noise goal
     int device = -1;
+    std::vector<std::string> parts; ///< whose sum is compared; empty: what the graph's transport says
 
     /// Names the task (shot, graph, values, size, frames, reference goal): the same text for the same task.
     std::string key() const;
@@ -31,6 +32,8 @@ struct PointTask {
 
 /// Error of a point against one reference.
 struct PointError {
+    double mean = 0, reference_mean = 0; ///< of the picture and of the reference, in their own units
+    double rmse_without_noise = 0;       ///< rmse, less what the reference's own noise explains, in the same units
     double bias = 0, rmse = 0, relative_rmse = 0, relative_mse = 0, p99 = 0, flip = 0, ssim = 0;
     double reference_noise = 0; ///< relative, of the reference itself
 };
@@ -49,12 +52,22 @@ struct ChartPoint {
     double total_ms = 0;
     uint64_t bytes = 0;
     int transport_bounces = -1;
+    std::vector<std::string> parts; ///< that were compared
     PointError same_transport, full;
     double kept_share = 1; ///< of the pixels: off depth and normal edges
     std::string renderer, commit;
     std::string thumbnail_png, error_png; ///< base64
     bool on_front = false;                ///< filled in by mark_pareto
+
+    /// Whether its errors are told in AO units: see only_occlusion.
+    bool absolute() const;
+    /// Against the same transport: RMSE in AO units, or else relative to the reference's mean.
+    double shown_error() const;
 };
+
+class Session;
+/// Fills in the errors of a frame that `session` has rendered (its frame index is the reference's), and the pictures.
+void compare_with_reference(Session& session, ChartPoint& point, const std::function<void(const std::string&)>& say);
 
 /// Renders and measures. Throws Error. `say` gets lines of progress.
 ChartPoint measure_point(const PointTask& task, const std::function<void(const std::string&)>& say);

@@ -1,5 +1,6 @@
 #include "app/experiments/cost_table.h"
 
+#include "app/experiments/chart_point.h"
 #include "app/session.h"
 #include "app/timings.h"
 #include "core/error.h"
@@ -8,6 +9,7 @@
 #include "core/text.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <glad/gl.h>
 #include <nlohmann/json.hpp>
@@ -52,8 +54,13 @@ std::vector<CostTableRow> rows_of(const ordered_json& json, const char* table, c
             errors.add(fmt::format("{}: a row is {{\"name\": …, \"{}\": […]}}", where, parts));
             continue;
         }
-        check_keys(entry, where, {"name", parts, "published"}, errors);
+        check_keys(entry, where, {"name", parts, "times", "published", "counted"}, errors);
+        row.counted = entry.value("counted", true);
         row.name = text_at(entry, "name", where, errors, true);
+        if (entry.contains("times") && entry["times"].is_number())
+            row.times = entry["times"].get<double>();
+        else if (entry.contains("times"))
+            errors.add(where + ": 'times' must be a number");
         for (const ordered_json& part : entry[parts])
             row.parts.push_back(set_text(part));
         if (entry.contains("published") && entry["published"].is_object()) {
@@ -92,7 +99,8 @@ CostTableFile load_cost_table(const std::string& name) {
                     ": a table is an object {\"graph\": …, \"columns\": […], \"memory\": […], \"time\": […]}");
     ErrorList errors;
     CostTableFile file;
-    check_keys(json, "the table", {"about", "graph", "columns", "memory", "time", "published_by"}, errors);
+    check_keys(json, "the table", {"about", "graph", "columns", "memory", "time", "counts", "errors", "published_by"},
+               errors);
     file.about = text_at(json, "about", "the table", errors, false);
     file.published_by = text_at(json, "published_by", "the table", errors, false);
     std::string graph = text_at(json, "graph", "the table", errors, false);
@@ -116,6 +124,15 @@ CostTableFile load_cost_table(const std::string& name) {
     }
     file.memory = rows_of(json, "memory", "resources", errors);
     file.time = rows_of(json, "time", "passes", errors);
+    file.counts = rows_of(json, "counts", "counters", errors);
+    if (json.contains("errors")) {
+        const ordered_json& wanted = json["errors"];
+        if (wanted.is_object() && wanted.contains("samples") && wanted["samples"].is_number_integer() &&
+            wanted["samples"].get<int>() > 0)
+            file.error_samples = wanted["samples"].get<int>();
+        else
+            errors.add("'errors' is {\"samples\": of the reference, a pixel}");
+    }
     errors.throw_if_any(path.string());
     return file;
 }
@@ -131,7 +148,7 @@ CostTableMeasured measure_column(const CostTableFile& file, const CostTableColum
     for (int frame = 0; frame < warm_up + frames; ++frame) {
         if (frame > 0) session.advance();
         if (frame == warm_up) session.graph().forget_timings();
-        session.render();
+        session.render(true);
     }
     session.graph().finish_timings();
     for (const GraphProblem& problem : session.graph().problems())
@@ -156,14 +173,40 @@ CostTableMeasured measure_column(const CostTableFile& file, const CostTableColum
             if (ran) sum = sum.value_or(0) + session.graph().timing(id).median;
         }
         measured.time_ms.push_back(sum);
-        measured.total_ms += sum.value_or(0);
+        if (row.counted) measured.total_ms += sum.value_or(0);
+    }
+    for (const CostTableRow& row : file.counts) {
+        std::optional<double> sum;
+        for (const CounterValue& counter : session.graph().counters()) {
+            if (std::find(row.parts.begin(), row.parts.end(), counter.label) != row.parts.end())
+                sum = sum.value_or(0) + double(counter.value) * row.times;
+        }
+        measured.counts.push_back(sum);
+    }
+    if (file.error_samples > 0) {
+        ChartPoint point;
+        point.task.shot = column.shot;
+        point.task.size = session.size();
+        point.task.warm_up = warm_up;
+        point.task.frames = frames;
+        point.task.reference_samples = file.error_samples;
+        point.parts = session.graph().model().file().transport.parts;
+        compare_with_reference(session, point, [](const std::string&) {});
+        measured.absolute = point.absolute();
+        measured.rmse = point.same_transport.rmse_without_noise;
+        measured.bias = point.same_transport.mean - point.same_transport.reference_mean;
+        if (!measured.absolute) {
+            measured.rmse = *measured.rmse / point.same_transport.reference_mean;
+            measured.bias = point.same_transport.bias;
+        }
     }
     return measured;
 }
 
 std::string cost_table_markdown(const CostTableFile& file, const std::vector<CostTableMeasured>& measured) {
     std::string out;
-    auto table = [&](const std::vector<CostTableRow>& rows, const char* unit, auto values, auto total) {
+    auto table = [&](const std::vector<CostTableRow>& rows, const char* unit, auto values, auto total,
+                     bool with_total = true) {
         if (rows.empty()) return;
         out += fmt::format("| {} |", unit);
         std::string rule = "| --- |";
@@ -181,11 +224,15 @@ std::string cost_table_markdown(const CostTableFile& file, const std::vector<Cos
                 auto published = rows[r].published.find(file.columns[c].name);
                 if (published != rows[r].published.end()) {
                     out += fmt::format(" [{:.1f}]", published->second);
-                    published_total[c] += published->second;
+                    if (rows[r].counted) published_total[c] += published->second;
                 }
                 out += " |";
             }
             out += "\n";
+        }
+        if (!with_total) {
+            out += "\n";
+            return;
         }
         out += "| all |";
         for (size_t c = 0; c < measured.size(); ++c) {
@@ -199,7 +246,29 @@ std::string cost_table_markdown(const CostTableFile& file, const std::vector<Cos
         file.memory, "MB (10⁶ bytes)", [](auto& m) { return m.memory_mb; }, [](auto& m) { return m.total_mb; });
     table(
         file.time, "ms", [](auto& m) { return m.time_ms; }, [](auto& m) { return m.total_ms; });
+    table(
+        file.counts, "counted", [](auto& m) { return m.counts; }, [](auto&) { return 0.0; }, false);
+    if (file.error_samples > 0) {
+        out += "| error |";
+        for (size_t c = 0; c < measured.size(); ++c)
+            out += " " + file.columns[c].name + " |";
+        out += "\n| --- |";
+        for (size_t c = 0; c < measured.size(); ++c)
+            out += " ---: |";
+        auto figure = [](const CostTableMeasured& m, double value, bool sign) {
+            std::string number = m.absolute ? fmt::format("{:.4f} AO", value) : fmt::format("{:.1f} %", 100 * value);
+            return sign && value >= 0 ? "+" + number : number;
+        };
+        out += "\n| bias |";
+        for (const CostTableMeasured& m : measured)
+            out += " " + figure(m, m.bias.value_or(0), true) + " |";
+        out += "\n| RMSE |";
+        for (const CostTableMeasured& m : measured)
+            out += " " + figure(m, m.rmse.value_or(0), false) + " |";
+        out += "\n\n";
+    }
     if (!measured.empty()) out += "Measured on " + measured.front().renderer + ".";
+    if (std::getenv("BOUNCE_CPU_TIME")) out += " Times are processor time of all threads together.";
     if (!file.published_by.empty()) out += " In brackets: " + file.published_by + ".";
     return out + "\n";
 }

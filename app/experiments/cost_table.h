@@ -5,7 +5,9 @@
 //     "columns": [{"name": "Sponza", "shot": "sponza", "set": {"occlusion_voxels.resolution": 512}}],
 //     "memory":  [{"name": "Occlusion voxels", "resources": ["voxels.occlusion"], "published": {"Sponza": 156.4}}],
 //     "time":    [{"name": "Voxelization", "passes": ["occlusion_voxels"], "published": {"Sponza": 5.3}}],
-//     "published_by": "LRSM paper, GTX 770" }
+//     "counts":  [{"name": "Lists in all, MB", "counters": ["fragments of all maps"], "times": 8e-6, "published":
+//     {…}}], "errors":  {"samples": 256},   against the reference of each column's transport, if wanted "published_by":
+//     "LRSM paper, GTX 770" }
 
 #include "app/experiments/sweep.h"
 
@@ -26,6 +28,8 @@ struct CostTableColumn {
 struct CostTableRow {
     std::string name;
     std::vector<std::string> parts;          ///< resources or passes; their sum is the row
+    bool counted = true;                     ///< in the last row's sum; a row of passes that other rows hold is not
+    double times = 1;                        ///< counts: the factor to the row's unit
     std::map<std::string, double> published; ///< by column: MB (10⁶ bytes) or ms, as the paper prints them
 };
 
@@ -33,6 +37,8 @@ struct CostTableFile {
     std::string about, published_by;
     std::vector<CostTableColumn> columns;
     std::vector<CostTableRow> memory, time;
+    std::vector<CostTableRow> counts; ///< what passes counted, by label
+    int error_samples = 0;            ///< of the reference that errors are against; 0: no errors
 };
 
 /// Throws Error that lists every problem. Finds "name" in assets/tables too.
@@ -41,7 +47,9 @@ CostTableFile load_cost_table(const std::string& name);
 /// What one column measured: 10⁶ bytes and milliseconds by row; none where no part of the row ran.
 struct CostTableMeasured {
     std::string renderer;
-    std::vector<std::optional<double>> memory_mb, time_ms;
+    std::vector<std::optional<double>> memory_mb, time_ms, counts;
+    std::optional<double> bias, rmse; ///< shares, or AO units where only occlusion is compared
+    bool absolute = false;
     double total_mb = 0, total_ms = 0; ///< of the rows
 };
 

@@ -2,14 +2,17 @@
 #include "app/capture.h"
 #include "app/experiments/chart_point.h"
 #include "app/experiments/parts.h"
+#include "app/experiments/transport.h"
 #include "app/hosts/headless.h"
 #include "app/timings.h"
 #include "core/base64.h"
+#include "core/comparison.h"
 #include "core/error.h"
 #include "core/flip.h"
 #include "core/heat_map.h"
 #include "core/metrics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -26,12 +29,10 @@ struct Truth {
     double noise = 0;
 };
 
-LayeredImage reference_for(const PointTask& task, const Shot& shot, int bounces, bool diffuse_only,
-                           const std::function<void(const std::string&)>& say) {
-    ReferenceSettings settings;
-    settings.bounces = bounces;
-    settings.diffuse_only = diffuse_only;
+LayeredImage reference_for(const PointTask& task, const Shot& shot, const ReferenceSettings& settings,
+                           const std::string& part, const std::function<void(const std::string&)>& say) {
     ReferenceGoal goal;
+    goal.part = part;
     goal.samples = task.reference_samples;
     goal.noise = task.reference_samples > 0 ? 0 : task.reference_noise;
     double told = 0;
@@ -40,7 +41,7 @@ LayeredImage reference_for(const PointTask& task, const Shot& shot, int bounces,
             if (progress.share >= told + 0.25) {
                 told = progress.share;
                 say(fmt::format("reference of {}, {}: {:.0f} %", task.shot,
-                                bounces < 0 ? "all bounces" : fmt::format("{} bounces", bounces),
+                                settings.bounces < 0 ? "all bounces" : fmt::format("{} bounces", settings.bounces),
                                 100 * progress.share));
             }
             return true;
@@ -48,8 +49,16 @@ LayeredImage reference_for(const PointTask& task, const Shot& shot, int bounces,
     return std::move(result.image);
 }
 
-Image8 small_picture(const Image& linear, float exposure, int width) {
-    Image display = display_values(linear, exposure);
+/// What an eye would see of it: light through the tone curve, occlusion as it is.
+Image shown(const Image& linear, bool light, float exposure) {
+    if (light) return display_values(linear, exposure);
+    Image out(linear.width, linear.height, 3);
+    for (size_t i = 0; i < out.pixels.size(); ++i)
+        out.pixels[i] = std::clamp(linear.pixels[i / 3 * size_t(linear.channels)], 0.0f, 1.0f);
+    return out;
+}
+
+Image8 small_picture(const Image& display, int width) {
     int w = std::min(width, display.width), h = std::max(1, display.height * w / display.width);
     Image8 out{w, h, std::vector<uint8_t>(size_t(w) * h * 4, 255)};
     for (int y = 0; y < h; ++y) {
@@ -77,20 +86,57 @@ PointError compare(const Image& picture, const LayeredImage& reference, const st
     Image truth = sum_of_parts(reference, parts);
     PointError out;
     ErrorFigures figures = error_figures(picture, truth, mask);
+    out.mean = figures.mean;
+    out.reference_mean = figures.reference_mean;
     out.bias = figures.bias;
     out.rmse = figures.rmse;
     out.relative_rmse = figures.relative_rmse;
     out.relative_mse = figures.relative_mse;
     out.p99 = figures.relative_error_p99;
-    float exposure = automatic_exposure(truth, mask);
-    Image a = display_values(picture, exposure), b = display_values(truth, exposure);
+    const bool light = !only_occlusion(parts);
+    float exposure = light ? automatic_exposure(truth, mask) : 0;
+    Image a = shown(picture, light, exposure), b = shown(truth, light, exposure);
     out.flip = flip_mean(flip(a, b), mask);
     out.ssim = ssim(a, b, mask);
     out.reference_noise = noise_of_parts(reference, parts);
+    const double noise = out.reference_noise * figures.reference_mean;
+    out.rmse_without_noise = std::sqrt(std::max(0.0, figures.rmse * figures.rmse - noise * noise));
     return out;
 }
 
 } // namespace
+
+void compare_with_reference(Session& session, ChartPoint& point, const std::function<void(const std::string&)>& say) {
+    const PointTask& task = point.task;
+    const Graph& graph = session.graph();
+    const bool occlusion = only_occlusion(point.parts);
+    LayeredImage picture = read_parts(session);
+
+    // The references are of the same shot at the same size.
+    Shot shot = load_shot(task.shot);
+    shot.width = task.size.x;
+    shot.height = task.size.y;
+    ReferenceSettings settings = transport_settings(graph.model());
+    if (occlusion) settings.bounces = 0; // it has none
+    LayeredImage same = reference_for(task, shot, settings, occlusion ? point.parts.front() : "out.radiance", say);
+    const glm::vec3 eye = evaluate_shot(shot, task.warm_up + task.frames - 1).camera.position;
+    Mask mask = edge_mask(same.layers.at("gbuffer.normal"), same.layers.at("gbuffer.position"), eye);
+    point.kept_share = mask.share();
+    Image own = sum_of_parts(picture, point.parts);
+    point.same_transport = compare(own, same, point.parts, mask);
+    if (occlusion) {
+        point.full = point.same_transport; // more light does not change what is open
+    } else {
+        ReferenceSettings all;
+        LayeredImage full = reference_for(task, shot, all, "out.radiance", say);
+        point.full = compare(sum_of_parts(picture, {"out.radiance"}), full, {"out.radiance"}, mask);
+    }
+
+    Image truth = sum_of_parts(same, point.parts);
+    const float exposure = occlusion ? 0 : automatic_exposure(truth, mask);
+    point.thumbnail_png = base64(encode_png(small_picture(shown(own, !occlusion, exposure), 240)));
+    point.error_png = base64(encode_png(heat_map(relative_error_map(own, truth), 0, 0.5f, mask)));
+}
 
 ChartPoint measure_point(const PointTask& task, const std::function<void(const std::string&)>& say) {
     ChartPoint point;
@@ -106,7 +152,7 @@ ChartPoint measure_point(const PointTask& task, const std::function<void(const s
     for (int frame = 0; frame < task.warm_up + task.frames; ++frame) {
         if (frame > 0) session.advance();
         if (frame == task.warm_up) session.graph().forget_timings();
-        session.render();
+        session.render(true);
     }
     session.graph().finish_timings();
     for (const GraphProblem& problem : session.graph().problems())
@@ -122,24 +168,8 @@ ChartPoint measure_point(const PointTask& task, const std::function<void(const s
     point.total_ms = graph.frame_ms();
     point.bytes = graph.plan().total_bytes();
     point.transport_bounces = transport.bounces;
-    LayeredImage picture = read_parts(session);
-
-    // The references are of the same shot at the same size.
-    Shot shot = load_shot(task.shot);
-    shot.width = task.size.x;
-    shot.height = task.size.y;
-    LayeredImage same = reference_for(task, shot, transport.bounces, transport.diffuse_only, say);
-    LayeredImage full = reference_for(task, shot, k_unlimited_bounces, false, say);
-    const glm::vec3 eye = evaluate_shot(shot, task.warm_up + task.frames - 1).camera.position;
-    Mask mask = edge_mask(full.layers.at("gbuffer.normal"), full.layers.at("gbuffer.position"), eye);
-    point.kept_share = mask.share();
-    Image own = sum_of_parts(picture, transport.parts);
-    point.same_transport = compare(own, same, transport.parts, mask);
-    point.full = compare(sum_of_parts(picture, {"out.radiance"}), full, {"out.radiance"}, mask);
-
-    Image truth = sum_of_parts(same, transport.parts);
-    point.thumbnail_png = base64(encode_png(small_picture(own, automatic_exposure(truth, mask), 240)));
-    point.error_png = base64(encode_png(heat_map(relative_error_map(own, truth), 0, 0.5f, mask)));
+    point.parts = task.parts.empty() ? transport.parts : task.parts;
+    compare_with_reference(session, point, say);
     point.renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     point.commit = program_commit();
     return point;

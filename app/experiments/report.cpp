@@ -43,9 +43,26 @@ std::string chart_csv(const std::vector<ChartPoint>& points) {
     }
     std::vector<std::string> header = {"shot", "graph", "width", "height"};
     header.insert(header.end(), names.begin(), names.end());
-    header.insert(header.end(), {"total_ms", "mib", "bounces", "bias", "relative_rmse", "relative_mse", "p99", "flip",
-                                 "ssim", "reference_noise", "full_bias", "full_relative_rmse", "full_flip",
-                                 "full_reference_noise", "pareto"});
+    header.insert(header.end(), {"total_ms",
+                                 "mib",
+                                 "bounces",
+                                 "bias",
+                                 "relative_rmse",
+                                 "relative_mse",
+                                 "p99",
+                                 "flip",
+                                 "ssim",
+                                 "reference_noise",
+                                 "full_bias",
+                                 "full_relative_rmse",
+                                 "full_flip",
+                                 "full_reference_noise",
+                                 "parts",
+                                 "mean",
+                                 "reference_mean",
+                                 "rmse",
+                                 "rmse_without_noise",
+                                 "pareto"});
     for (const std::string& pass : passes)
         header.insert(header.end(), {pass + "_ms", pass + "_p10_ms", pass + "_p90_ms"});
     header.insert(header.end(), {"renderer", "commit", "command"});
@@ -65,6 +82,9 @@ std::string chart_csv(const std::vector<ChartPoint>& points) {
         for (double v : {e.bias, e.relative_rmse, e.relative_mse, e.p99, e.flip, e.ssim, e.reference_noise, p.full.bias,
                          p.full.relative_rmse, p.full.flip, p.full.reference_noise})
             number(v);
+        row.push_back(join(p.parts, "+"));
+        for (double v : {e.mean, e.reference_mean, e.rmse, e.rmse_without_noise})
+            number(v);
         row.push_back(p.on_front ? "1" : "0");
         for (const std::string& id : passes) {
             auto pass = std::find_if(p.passes.begin(), p.passes.end(), [&](auto& c) { return c.id == id; });
@@ -82,7 +102,7 @@ std::string chart_csv(const std::vector<ChartPoint>& points) {
     return out;
 }
 
-std::string chart_html(const std::vector<ChartPoint>& points) {
+std::string chart_html(const std::vector<ChartPoint>& points, const std::string& against) {
     std::string out =
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Bounce: error against "
         "time</title>\n<style>\n"
@@ -96,7 +116,7 @@ std::string chart_html(const std::vector<ChartPoint>& points) {
         "transport "
         "(and of all light, where named so). A bar at the left marks points that no other beats in both time and "
         "error.</p>\n";
-    out += svg_scatter(points);
+    out += svg_scatter(points, against);
     out += "<h2>Points</h2>\n<table><tr><th>point</th><th>GPU ms<br>(10 … 90 % by "
            "pass)</th><th>MiB</th><th>bias</th><th>relative RMSE</th><th>99 %</th><th>FLIP</th>"
            "<th>reference noise</th><th>against all light:<br>bias, RMSE</th><th>picture</th><th>relative error, 0 … "
@@ -109,14 +129,19 @@ std::string chart_html(const std::vector<ChartPoint>& points) {
         for (const auto& [id, reason] : p.declined)
             passes += fmt::format("{}: not run, {}<br>", escape_markup(id), escape_markup(reason));
         const PointError& e = p.same_transport;
+        const std::string bias = p.absolute() ? fmt::format("{:+.4f} AO", e.mean - e.reference_mean)
+                                              : fmt::format("{:+.2f} %", 100 * e.bias);
+        const std::string rmse = p.absolute()
+                                     ? fmt::format("{:.4f} AO<br>without noise {:.4f}", e.rmse, e.rmse_without_noise)
+                                     : fmt::format("{:.2f} %", 100 * e.relative_rmse);
         out += fmt::format(
-            "<tr{}><td>{}<br><code>{}</code></td><td><b>{:.3g}</b><br><small>{}</small></td><td>{:.1f}</td><td>{:+.2f} "
-            "%</td><td>{:.2f} %</td><td>{:.1f} %</td>"
+            "<tr{}><td>{}<br><code>{}</code></td><td><b>{:.3g}</b><br><small>{}</small></td><td>{:.1f}</td><td>{}</"
+            "td><td>{}</td><td>{:.1f} %</td>"
             "<td>{:.4f}</td><td>{:.2f} %</td><td>{:+.1f} %, {:.1f} %</td><td><img alt=\"\" "
             "src=\"data:image/png;base64,{}\"></td><td><img alt=\"\" src=\"data:image/png;base64,{}\"></td></tr>\n",
             p.on_front ? " class=\"front\"" : "", escape_markup(p.task.label()), escape_markup(p.task.command()),
-            p.total_ms, passes, double(p.bytes) / 1048576.0, 100 * e.bias, 100 * e.relative_rmse, 100 * e.p99, e.flip,
-            100 * e.reference_noise, 100 * p.full.bias, 100 * p.full.relative_rmse, p.thumbnail_png, p.error_png);
+            p.total_ms, passes, double(p.bytes) / 1048576.0, bias, rmse, 100 * e.p99, e.flip, 100 * e.reference_noise,
+            100 * p.full.bias, 100 * p.full.relative_rmse, p.thumbnail_png, p.error_png);
     }
     std::set<std::string> machines;
     for (const ChartPoint& p : points)
@@ -127,15 +152,15 @@ std::string chart_html(const std::vector<ChartPoint>& points) {
     return out + "</p>\n</body></html>\n";
 }
 
-void write_report(std::vector<ChartPoint> points, const std::filesystem::path& folder) {
+void write_report(std::vector<ChartPoint> points, const std::filesystem::path& folder, const std::string& against) {
     mark_pareto(points);
     std::string json = "[\n";
     for (size_t i = 0; i < points.size(); ++i)
         json += (i ? ",\n" : "") + point_to_json(points[i]);
     write_file_atomically(folder / "chart.csv", chart_csv(points));
     write_file_atomically(folder / "chart.json", json + "]\n");
-    write_file_atomically(folder / "chart.svg", svg_scatter(points));
-    write_file_atomically(folder / "chart.html", chart_html(points));
+    write_file_atomically(folder / "chart.svg", svg_scatter(points, against));
+    write_file_atomically(folder / "chart.html", chart_html(points, against));
 }
 
 } // namespace bounce

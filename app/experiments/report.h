@@ -8,8 +8,9 @@
 namespace bounce {
 
 std::string chart_csv(const std::vector<ChartPoint>& points);
-std::string chart_html(const std::vector<ChartPoint>& points);
-/// Writes chart.csv, chart.json, chart.svg and chart.html into `folder`. Throws Error.
-void write_report(std::vector<ChartPoint> points, const std::filesystem::path& folder);
+std::string chart_html(const std::vector<ChartPoint>& points, const std::string& against = "");
+/// Writes chart.csv, chart.json, chart.svg and chart.html into `folder`. Throws Error. `against`: see
+/// svg_scatter.
+void write_report(std::vector<ChartPoint> points, const std::filesystem::path& folder, const std::string& against = "");
 
 } // namespace bounce

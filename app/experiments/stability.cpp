@@ -32,7 +32,7 @@ StabilityFigures measure_stability(Session& session, const std::string& resource
     size_t count = 0, firsts = 0;
     for (int frame = 0; frame < frames; ++frame) {
         if (frame > 0) session.advance();
-        session.render();
+        session.render(true);
         std::vector<float> now = luminance_of(session, resource);
         for (size_t i = 0; i < now.size(); ++i) {
             sum += now[i];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <map>
 
@@ -67,14 +68,42 @@ struct Axis {
     }
 };
 
-std::string plot(const std::string& shot, const std::vector<const ChartPoint*>& points,
-                 const std::map<std::string, int>& colours, int top) {
-    std::vector<double> times, errors;
-    for (const ChartPoint* p : points) {
-        times.push_back(p->total_ms);
-        errors.push_back(p->same_transport.relative_rmse);
+/// The value of `against`, of whichever pass; 0 when the point does not set it.
+double parameter_of(const ChartPoint& point, const std::string& against) {
+    for (auto it = point.task.values.rbegin(); it != point.task.values.rend(); ++it) { // the last one set counts
+        if (it->first == against || it->first.ends_with("." + against)) return std::atof(it->second.c_str());
     }
-    Axis x_axis(times), y_axis(errors);
+    return 0;
+}
+
+/// Joins the points from left to right: the Pareto front as steps, or each graph's own as lines.
+std::string joined(std::vector<std::pair<double, double>> points, bool steps, const char* colour) {
+    std::sort(points.begin(), points.end());
+    if (points.size() < 2) return "";
+    std::string path;
+    for (size_t i = 0; i < points.size(); ++i) {
+        const auto& [x, y] = points[i];
+        if (i == 0)
+            path = fmt::format("M{:.1f} {:.1f}", x, y);
+        else
+            path += steps ? fmt::format(" H{:.1f} V{:.1f}", x, y) : fmt::format(" L{:.1f} {:.1f}", x, y);
+    }
+    return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-dasharray=\"4 3\"/>\n", path, colour);
+}
+
+std::string plot(const std::string& shot, const std::vector<const ChartPoint*>& points,
+                 const std::map<std::string, int>& colours, int top, const std::string& against) {
+    const bool absolute = std::all_of(points.begin(), points.end(), [](auto* p) { return p->absolute(); });
+    auto error_of = [&](const ChartPoint* p) {
+        return absolute ? p->same_transport.rmse : p->same_transport.relative_rmse;
+    };
+    auto place_of = [&](const ChartPoint* p) { return against.empty() ? p->total_ms : parameter_of(*p, against); };
+    std::vector<double> places, errors;
+    for (const ChartPoint* p : points) {
+        places.push_back(place_of(p));
+        errors.push_back(error_of(p));
+    }
+    Axis x_axis(places), y_axis(errors);
     auto x = [&](double ms) { return k_left + x_axis.share(ms) * (k_width - k_left - k_right); };
     auto y = [&](double error) { return top + k_top + (1 - y_axis.share(error)) * (k_height - k_top - k_bottom); };
     double bottom = top + k_height - k_bottom;
@@ -87,36 +116,37 @@ std::string plot(const std::string& shot, const std::vector<const ChartPoint*>& 
     }
     for (double t : y_axis.ticks()) {
         out += fmt::format("<line x1=\"{1}\" x2=\"{2}\" y1=\"{0:.1f}\" y2=\"{0:.1f}\" stroke=\"#ddd\"/><text x=\"{3}\" "
-                           "y=\"{4:.1f}\" text-anchor=\"end\">{5:g} %</text>\n",
-                           y(t), k_left, k_width - k_right, k_left - 6, y(t) + 4, 100 * t);
+                           "y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>\n",
+                           y(t), k_left, k_width - k_right, k_left - 6, y(t) + 4,
+                           absolute ? fmt::format("{:g}", t) : fmt::format("{:g} %", 100 * t));
     }
-    out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">GPU time of a frame, ms</text>\n",
-                       (k_left + k_width - k_right) / 2, bottom + 36);
-    out += fmt::format("<text transform=\"translate(16 {}) rotate(-90)\" text-anchor=\"middle\">relative RMSE, same "
-                       "transport</text>\n",
-                       top + (k_top + k_height - k_bottom) / 2);
+    out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", (k_left + k_width - k_right) / 2,
+                       bottom + 36, against.empty() ? "GPU time of a frame, ms" : escape_markup(against));
+    out += fmt::format("<text transform=\"translate(16 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+                       top + (k_top + k_height - k_bottom) / 2,
+                       absolute ? "RMSE of occlusion, AO units" : "relative RMSE, same transport");
 
-    std::vector<const ChartPoint*> front;
+    std::vector<std::pair<double, double>> front;
+    std::map<std::string, std::vector<std::pair<double, double>>> lines;
     for (const ChartPoint* p : points) {
-        if (p->on_front) front.push_back(p);
+        const std::pair<double, double> at{x(place_of(p)), y(error_of(p))};
+        if (p->on_front) front.push_back(at);
+        lines[p->task.graph].push_back(at);
     }
-    std::sort(front.begin(), front.end(), [](auto* a, auto* b) { return a->total_ms < b->total_ms; });
-    if (front.size() > 1) {
-        std::string path;
-        for (size_t i = 0; i < front.size(); ++i) {
-            double px = x(front[i]->total_ms), py = y(front[i]->same_transport.relative_rmse);
-            path += i == 0 ? fmt::format("M{:.1f} {:.1f}", px, py) : fmt::format(" H{:.1f} V{:.1f}", px, py);
-        }
-        out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#888\" stroke-dasharray=\"4 3\"/>\n", path);
+    if (against.empty()) {
+        out += joined(front, true, "#888");
+    } else {
+        for (const auto& [graph, line] : lines)
+            out += joined(line, false, k_colours[size_t(colours.at(graph)) % std::size(k_colours)]);
     }
     for (const ChartPoint* p : points) {
         const char* colour = k_colours[size_t(colours.at(p->task.graph)) % std::size(k_colours)];
         out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\" fill-opacity=\"{}\" "
-                           "stroke=\"{}\"><title>{}\n{:.3g} ms, {:.2f} %, {:.1f} MiB{}</title></circle>\n",
-                           x(p->total_ms), y(p->same_transport.relative_rmse), p->on_front ? 5 : 3.5, colour,
-                           p->on_front ? 1.0 : 0.35, colour, escape_markup(p->task.label()), p->total_ms,
-                           100 * p->same_transport.relative_rmse, double(p->bytes) / 1048576.0,
-                           p->on_front ? ", on the Pareto front" : "");
+                           "stroke=\"{}\"><title>{}\n{:.3g} ms, {}, {:.1f} MiB{}</title></circle>\n",
+                           x(place_of(p)), y(error_of(p)), p->on_front ? 5 : 3.5, colour, p->on_front ? 1.0 : 0.35,
+                           colour, escape_markup(p->task.label()), p->total_ms,
+                           absolute ? fmt::format("{:.4f}", error_of(p)) : fmt::format("{:.2f} %", 100 * error_of(p)),
+                           double(p->bytes) / 1048576.0, p->on_front ? ", on the Pareto front" : "");
     }
     int row = 0;
     for (const auto& [graph, index] : colours) {
@@ -132,10 +162,11 @@ std::string plot(const std::string& shot, const std::vector<const ChartPoint*>& 
 
 } // namespace
 
-std::string svg_scatter(const std::vector<ChartPoint>& points) {
+std::string svg_scatter(const std::vector<ChartPoint>& points, const std::string& against) {
     std::map<std::string, std::vector<const ChartPoint*>> by_shot;
     std::map<std::string, int> colours;
     for (const ChartPoint& point : points) {
+        if (!against.empty() && !(parameter_of(point, against) > 0)) continue; // no place on a logarithmic axis
         by_shot[point.task.shot].push_back(&point);
         colours.emplace(point.task.graph, 0);
     }
@@ -149,7 +180,7 @@ std::string svg_scatter(const std::vector<ChartPoint>& points) {
         k_width, height);
     int top = 0;
     for (const auto& [shot, own] : by_shot) {
-        out += plot(shot, own, colours, top);
+        out += plot(shot, own, colours, top, against);
         top += k_height;
     }
     return out + "</svg>\n";

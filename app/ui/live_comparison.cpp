@@ -2,6 +2,7 @@
 
 #include "app/capture.h"
 #include "app/experiments/parts.h"
+#include "app/experiments/transport.h"
 #include "core/error.h"
 #include "core/flip.h"
 #include "core/heat_map.h"
@@ -19,10 +20,11 @@ static bool models_everything(const LiveComparison& comparison, const Session& s
 /// What the reference depends on, as far as the window can change it.
 std::string LiveComparison::key_of(const Session& session) const {
     const Transport& transport = session.graph().model().file().transport;
-    return fmt::format("{} {} {} {}x{} {} {} {}", session.options().shot, session.edits(),
-                       camera_json(session.camera()), session.size().x, session.size().y, session.frame(),
-                       models_everything(*this, session) ? -1 : transport.bounces,
-                       !full_transport && transport.diffuse_only);
+    const ReferenceSettings settings = transport_settings(session.graph().model());
+    return fmt::format(
+        "{} {} {} {}x{} {} {} {} {} {}", session.options().shot, session.edits(), camera_json(session.camera()),
+        session.size().x, session.size().y, session.frame(), models_everything(*this, session) ? -1 : transport.bounces,
+        !full_transport && transport.diffuse_only, settings.occlusion_distance, int(settings.occlusion_falloff));
 }
 
 bool LiveComparison::stale(const Session& session) const {
@@ -37,7 +39,7 @@ void LiveComparison::start(const Session& session) {
     shot->width = session.size().x;
     shot->height = session.size().y;
     const Transport& transport = session.graph().model().file().transport;
-    ReferenceSettings settings;
+    ReferenceSettings settings = transport_settings(session.graph().model());
     settings.bounces = models_everything(*this, session) ? k_unlimited_bounces : transport.bounces;
     settings.diffuse_only = !full_transport && transport.diffuse_only;
     parts_ = full_transport ? std::vector<std::string>{"out.radiance"} : transport.parts;

@@ -3,7 +3,15 @@
 // One directional value from eight voxels (DVS, section VII; Crassin et al. 2011): in depth the near one before the far
 // one, c = c_near + (1 − α_near)·c_far, then the mean over the four columns. Values are premultiplied; children are indexed
 // x + 2y + 4z. Who looks at leaf k = 2·axis comes from +axis.
+uniform int mip_rule = 0; //! {front_to_back, mean} how eight voxels become one: front to back in depth, as published; or all one mean, which knows no direction (isotropic)
+
 vec4 directional_mean(vec4 children[8], int leaf) {
+    if (mip_rule == 1) {
+        vec4 all = vec4(0.0);
+        for (int i = 0; i < 8; ++i)
+            all += children[i];
+        return 0.125 * all;
+    }
     int depth = 1 << (leaf / 2);
     vec4 sum = vec4(0.0);
     for (int i = 0; i < 8; ++i) {

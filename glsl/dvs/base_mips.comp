@@ -1,5 +1,5 @@
 // The first level of the directional volumes from the radiance volume: all six directions of one voxel of half the
-// resolution (DVS, section VII).
+// resolution (DVS, section VII). The volumes begin as zeros: empty voxels are not written.
 #include "dvs/anisotropic.glsl"
 #include "dvs/tiles.glsl"
 
@@ -18,6 +18,7 @@ void main() {
         children[i] = texelFetch(dvs_filtered, 2 * voxel + ivec3(i & 1, (i >> 1) & 1, i >> 2), 0);
         occupied += children[i].a;
     }
+    if (occupied <= 0.0) return;
     for (int leaf = 0; leaf < 6; ++leaf)
-        imageStore(dvs_directional, voxel + tile_of(leaf, size), occupied > 0.0 ? directional_mean(children, leaf) : vec4(0.0));
+        imageStore(dvs_directional, voxel + tile_of(leaf, size), directional_mean(children, leaf));
 }

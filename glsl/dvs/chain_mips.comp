@@ -1,4 +1,5 @@
-// One step of the directional volumes' mip chain: each direction from its own finer level (DVS, section VII).
+// One step of the directional volumes' mip chain: each direction from its own finer level (DVS, section VII). The volumes
+// begin as zeros: empty voxels are not written.
 #include "dvs/anisotropic.glsl"
 #include "dvs/tiles.glsl"
 
@@ -21,6 +22,6 @@ void main() {
             children[i] = texelFetch(dvs_finer, base + ivec3(i & 1, (i >> 1) & 1, i >> 2), coarser_mip - 1);
             occupied += children[i].a;
         }
-        imageStore(dvs_directional, voxel + tile_of(leaf, size), occupied > 0.0 ? directional_mean(children, leaf) : vec4(0.0));
+        if (occupied > 0.0) imageStore(dvs_directional, voxel + tile_of(leaf, size), directional_mean(children, leaf));
     }
 }

@@ -1,51 +1,57 @@
 // Puts the voxels that were marked since the last time on the list, writes what they are (static or dynamic) to the flag
 // volume (DVS, section V.B) and their number on the list, plus one, to voxels.place. The order on the list may differ from
-// run to run; no volume depends on it. A group is a brick of 4³ voxels: voxels.bricks says which hold anything.
+// run to run; no volume depends on it. One invocation goes through a brick of 4³ voxels, if voxels.bricks says that one of
+// them was written; afterwards it says which bricks hold anything.
 #include "dvs/list.glsl"
+#include "dvs/fixed_point.glsl"
 
-layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
+layout(local_size_x = 64) in;
 
 layout(r32ui) uniform uimage3D voxels_place;
 layout(r8ui) uniform uimage3D voxels_flags;
-layout(r8ui) writeonly uniform uimage3D voxels_bricks;
-layout(std430) buffer voxels_sums { uint sums[]; };            //! optional
-layout(std430) buffer voxels_plane_sums { uint plane_sums[]; }; //! optional
+layout(r8ui) uniform uimage3D voxels_bricks;
+layout(std430) buffer voxels_sums { uint sums[]; };      //! optional
 
 uniform uint kind; // k_static or k_dynamic
 uniform int averaging; // {average, last_writer, sum, gather}
-uniform bool plane_sums_kept; // voxels.plane_sums is there
 
-shared uint found, first, occupied;
+// The triangle's number, plus one, if the voxel was marked and is not on the list yet.
+uint new_mark(ivec3 voxel) {
+    return imageLoad(voxels_flags, voxel).r == 0u ? imageLoad(voxels_place, voxel).r : 0u;
+}
 
 void main() {
-    if (gl_LocalInvocationIndex == 0u) found = 0u, occupied = 0u;
-    barrier();
-    ivec3 voxel = ivec3(gl_GlobalInvocationID);
-    uint mark = 0u;
-    if (all(lessThan(voxel, imageSize(voxels_place)))) {
-        bool known = imageLoad(voxels_flags, voxel).r != 0u;
-        if (!known) mark = imageLoad(voxels_place, voxel).r;
-        if (known || mark != 0u) occupied = 1u; // whoever writes it writes the same
+    ivec3 bricks = imageSize(voxels_bricks);
+    int at = int(gl_GlobalInvocationID.x);
+    if (at >= bricks.x * bricks.y * bricks.z) return;
+    ivec3 brick = ivec3(at % bricks.x, at / bricks.x % bricks.y, at / bricks.x / bricks.y);
+    int voxels = imageLoad(voxels_bricks, brick).r != 0u ? 64 : 0;
+    uint found = 0u;
+    bool occupied = false;
+    for (int i = 0; i < voxels; ++i) {
+        ivec3 voxel = 4 * brick + ivec3(i & 3, (i >> 2) & 3, i >> 4);
+        uint mark = new_mark(voxel);
+        if (mark != 0u) ++found;
+        occupied = occupied || mark != 0u || imageLoad(voxels_flags, voxel).r != 0u;
     }
-    uint mine = mark != 0u ? atomicAdd(found, 1u) : 0u;
-    barrier();
-    if (gl_LocalInvocationIndex == 0u) imageStore(voxels_bricks, ivec3(gl_WorkGroupID), uvec4(occupied));
-    if (found == 0u) return;
-    if (gl_LocalInvocationIndex == 0u) first = atomicAdd(listed, found);
-    barrier();
-    if (mark == 0u) return;
-    uint index = first + mine;
-    if (index >= uint(list.length())) {
-        imageStore(voxels_place, voxel, uvec4(0u));
-        return;
+    if (voxels > 0 && !occupied) imageStore(voxels_bricks, brick, uvec4(0u)); // what moved is gone from here
+    uint index = 0u;
+    if (found > 0u) index = atomicAdd(listed, found);
+    for (int i = 0; i < (found > 0u ? voxels : 0); ++i) {
+        ivec3 voxel = 4 * brick + ivec3(i & 3, (i >> 2) & 3, i >> 4);
+        uint mark = new_mark(voxel);
+        if (mark == 0u) continue;
+        if (index >= uint(list.length())) {
+            imageStore(voxels_place, voxel, uvec4(0u));
+            continue;
+        }
+        list[index] = entry_of(voxel);
+        imageStore(voxels_place, voxel, uvec4(index + 1u));
+        imageStore(voxels_flags, voxel, uvec4(kind));
+        if (averaging == 1) sums[index] = mark - 1u;
+        if (averaging >= 2)
+            for (uint k = 0u; k < k_sums; ++k)
+                sums[index * k_sums + k] = 0u;
+        ++index;
     }
-    list[index] = entry_of(voxel);
-    imageStore(voxels_place, voxel, uvec4(index + 1u));
-    imageStore(voxels_flags, voxel, uvec4(kind));
-    if (averaging == 1) sums[index] = mark - 1u;
-    if (averaging == 3) sums[index] = 0u;
-    if (averaging == 2)
-        for (uint i = 0u; i < 12u; ++i)
-            sums[index * 12u + i] = 0u;
-    if (plane_sums_kept) plane_sums[2u * index] = plane_sums[2u * index + 1u] = 0u;
 }

@@ -11,19 +11,23 @@
 #include "dvs/tiles.glsl"
 
 uniform sampler3D dvs_base;        // the radiance volume
-#ifdef DVS_PREVIOUS
-uniform sampler3D dvs_previous; //! optional
-uniform bool from_previous;     // the radiance volume is dvs_previous
+#ifdef DVS_PREVIOUS // the radiance volume is that of the bounce before
+uniform sampler3D dvs_previous;
+#define DVS_BASE dvs_previous
+#else
+#define DVS_BASE dvs_base
 #endif
 uniform sampler3D dvs_directional; // six tiles; from the base level on, or from half the resolution
 
 uniform int direction_weights = 0;    //! {squared, absolute} weights of the three volumes: d_k² sums to 1 (as usual); their absolute values are how directional leaves add up
 uniform float ambient_decay = 0.1;    //! [0, 10] (1/voxel) λ, how fast occlusion fades with the cone's radius
-uniform bool hit_then_sample = false; //! the colour is looked up once a cone, where it is blocked
-uniform bool exact_hits = false;      //! hit_then_sample: the hit is found from voxel to voxel instead of by a thin cone
+uniform bool hit_then_sample = false; //! static the colour is looked up once a cone, where it is blocked
+uniform bool exact_hits = false;      //! static hit_then_sample: the hit is found from voxel to voxel instead of by a thin cone
 uniform float hit_aperture = 2.0;     //! [0, 90] (degrees) hit_then_sample: of the cone that finds the hit
 uniform float hit_threshold = 0.5;    //! [0.05, 0.99] hit_then_sample: occlusion from which the cone counts as blocked
 uniform float hit_radius = 1.0;       //! [0.25, 16] (voxels) hit_then_sample: radius of the sphere that is looked up
+
+float start_share = 0.0; // how much of its first step a cone leaves out
 
 VoxelGrid directional_grid() {
     int size = textureSize(dvs_base, 0).x, tile = textureSize(dvs_directional, 0).z;
@@ -54,16 +58,25 @@ vec4 base_value(sampler3D base, vec3 at) {
     return textureLod(base, at, 0.0);
 }
 
-// Premultiplied colour and α of a sphere, without the exponent.
+// Whether the base volume is blended in at a level: below the first one of the directional volumes.
+bool is_near(VoxelGrid grid, float level) {
+    return grid.leaves == 1 && level < 1.0;
+}
+
+// Premultiplied colour and α of a sphere, without the exponent, that lies inside the grid; from the directional volumes.
+vec4 far_value(VoxelGrid grid, vec3 position, vec3 direction, float level) {
+    return directional_value(grid, (position - grid.origin) / grid.side, direction, grid.leaves == 6 ? level : max(level - 1.0, 0.0));
+}
+
+// The same where the base volume is blended in.
+vec4 near_value(VoxelGrid grid, vec3 position, vec3 direction, float level) {
+    return mix(base_value(DVS_BASE, (position - grid.origin) / grid.side), far_value(grid, position, direction, level), level);
+}
+
+// Of any sphere.
 vec4 sphere_value(VoxelGrid grid, vec3 position, vec3 direction, float level) {
-    vec3 at = (position - grid.origin) / grid.side;
-    if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return vec4(0.0);
-    if (grid.leaves == 6) return directional_value(grid, at, direction, level);
-    vec4 coarse = directional_value(grid, at, direction, max(level - 1.0, 0.0));
-#ifdef DVS_PREVIOUS
-    if (from_previous) return mix(base_value(dvs_previous, at), coarse, min(level, 1.0));
-#endif
-    return level >= 1.0 ? coarse : mix(base_value(dvs_base, at), coarse, level);
+    if (outside_grid(grid, position)) return vec4(0.0);
+    return is_near(grid, level) ? near_value(grid, position, direction, level) : far_value(grid, position, direction, level);
 }
 
 float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float level) {
@@ -73,10 +86,7 @@ float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float leve
 vec3 colour_of_side(VoxelGrid grid, ivec3 voxel, bool front) {
     ivec3 size = textureSize(dvs_base, 0);
     ivec3 at = voxel + ivec3(0, 0, !front && size.z > size.x ? size.x : 0);
-#ifdef DVS_PREVIOUS
-    if (from_previous) return texelFetch(dvs_previous, at, 0).rgb;
-#endif
-    return texelFetch(dvs_base, at, 0).rgb;
+    return texelFetch(DVS_BASE, at, 0).rgb;
 }
 
 struct Traced {
@@ -84,6 +94,15 @@ struct Traced {
     float occlusion;         // α
     float ambient_occlusion; // δ
 };
+
+// Front to back.
+void add_sphere(inout Traced cone, VoxelGrid grid, vec4 value, float d) {
+    if (value.a <= 1.0e-4) return;
+    float alpha = corrected_opacity(min(value.a, 1.0));
+    cone.colour += (1.0 - cone.occlusion) * value.rgb * (alpha / value.a);
+    cone.occlusion += (1.0 - cone.occlusion) * alpha;
+    cone.ambient_occlusion += (1.0 - cone.ambient_occlusion) * alpha / (1.0 + ambient_decay * 0.5 * d / grid.voxel);
+}
 
 Traced trace_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter) {
     Traced cone = Traced(vec3(0.0), 0.0, 0.0);
@@ -106,17 +125,23 @@ Traced trace_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter) {
         return cone;
     }
     float t = max(start_offset, 1.0e-3) * grid.voxel, end = reach * scene_diagonal;
-    for (int i = 0; i < most_steps && t < end && cone.occlusion < 0.99; ++i) {
+    t += start_share * cone_step * max(diameter * t, grid.voxel);
+    // First the few steps that look up the base volume, too: where lanes share their way, a loop of its own is what keeps the
+    // others from paying for them.
+    int i = 0;
+    for (; i < most_steps && t < end && cone.occlusion < 0.99; ++i) {
+        vec3 centre = apex + t * direction;
+        float d = max(diameter * t, grid.voxel), level = sphere_level(grid, d);
+        if (!is_near(grid, level)) break;
+        if (outside_grid(grid, centre)) return cone;
+        add_sphere(cone, grid, near_value(grid, centre, direction, level), d);
+        t += cone_step * d;
+    }
+    for (; i < most_steps && t < end && cone.occlusion < 0.99; ++i) {
         vec3 centre = apex + t * direction;
         if (outside_grid(grid, centre)) break;
         float d = max(diameter * t, grid.voxel);
-        vec4 value = sphere_value(grid, centre, direction, sphere_level(grid, d));
-        if (value.a > 1.0e-4) {
-            float alpha = corrected_opacity(min(value.a, 1.0));
-            cone.colour += (1.0 - cone.occlusion) * value.rgb * (alpha / value.a);
-            cone.occlusion += (1.0 - cone.occlusion) * alpha;
-            cone.ambient_occlusion += (1.0 - cone.ambient_occlusion) * alpha / (1.0 + ambient_decay * 0.5 * d / grid.voxel);
-        }
+        add_sphere(cone, grid, far_value(grid, centre, direction, sphere_level(grid, d)), d);
         t += cone_step * d;
     }
     return cone;

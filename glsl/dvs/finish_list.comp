@@ -7,7 +7,6 @@ uniform uint kind;
 
 void main() {
     uint capacity = uint(list.length());
-    linked = 0u;
     homeless = listed > capacity ? listed - capacity : 0u;
     listed = min(listed, capacity);
     if (kind == k_static) static_listed = listed;

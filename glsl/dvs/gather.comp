@@ -14,6 +14,7 @@ layout(FORMAT_dvs_irradiance) writeonly uniform image2D dvs_irradiance;
 uniform int cone_set = 0;       //! {six, six_tilted, spiral} six as published
 uniform int spiral_cones = 32;  //! [4, 128] cones of the set spiral
 uniform int interleave = 1;     //! [1, 8] (texels) neighbours in blocks of n × n take different cones; 1: all take the same
+uniform bool dithered_start = false; //! cones of neighbours in blocks of 4 × 4 begin at other places of their first step: noise instead of bands
 uniform float aperture = 60.0;  //! [1, 90] (degrees) of each cone, from side to side
 
 void main() {
@@ -32,6 +33,7 @@ void main() {
     mat3 frame = frame_around(n);
     float diameter = 2.0 * tan(radians(0.5 * aperture));
     float part = interleaved_part(texel, interleave);
+    if (dithered_start) start_share = interleaved_part(texel, 4);
     vec4 sum = vec4(0.0);
     for (int i = 0; i < cone_count(cone_set, spiral_cones); ++i) {
         vec4 cone = cone_of(cone_set, spiral_cones, i, part);

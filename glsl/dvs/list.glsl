@@ -7,7 +7,6 @@ layout(std430) buffer voxels_counts {
     uint listed;        // entries
     uint static_listed; // of them, those of static geometry
     uint homeless;      // voxels for which the list has no room
-    uint linked;        // averaging=gather: fragments
 };
 
 const uint k_groups_a_row = 32768u;
@@ -19,10 +18,8 @@ ivec3 voxel_of(uint entry) {
 uint entry_of(ivec3 voxel) {
     return uint(voxel.x) | (uint(voxel.y) << 9) | (uint(voxel.z) << 18);
 }
-#ifndef LIST_WITHOUT_DISPATCH // fragments are not dispatched over it
 uint listed_index() {
     return (gl_WorkGroupID.y * k_groups_a_row + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
 }
-#endif
 
 #endif

@@ -1,5 +1,5 @@
-// Marks the voxels that each triangle overlaps (DVS, section V.A), or links the triangle into their lists, without a rasterizer
-// and without looking at its surface: a program of its own, since software drivers run both sides of a branch.
+// Marks the voxels that each triangle overlaps (DVS, section V.A), without a rasterizer and without looking at its surface: a
+// program of its own, since software drivers run both sides of a branch.
 #include "voxel/triangle_voxels.glsl"
 #include "dvs/voxel_fragment.glsl"
 #include "dvs/fragment_store.glsl"
@@ -7,9 +7,7 @@
 layout(local_size_x = 256) in;
 
 void visit_voxel(VisitedTriangle triangle, ivec3 voxel) {
-    if (taken_by_static(voxel)) return;
-    if (operation == 0) store_mark(voxel, triangle.index);
-    else store_link(voxel, triangle.index);
+    if (!taken_by_static(voxel)) store_mark(voxel, triangle.index);
 }
 
 void main() {

@@ -4,7 +4,7 @@
 // blocks what its surface faces, so that a surface does not block what leaves it; where normals cancel it blocks all, and
 // two-sided surfaces block from behind too, past the first voxels. Where voxels know their mean plane, it is the plane that
 // blocks: who leaves the voxel in front of it goes on, and who starts behind it is not blocked near by.
-#include "dvs/voxel_volumes.glsl"
+#include "dvs/voxel_surface.glsl"
 #include "voxel/cone_steps.glsl"
 
 uniform usampler3D voxels_bricks; // 0: all 4³ voxels are empty
@@ -21,12 +21,12 @@ struct VoxelHit {
 };
 
 // `surface`: the averaged normal, and in a the plane's offset from the voxel's centre along it (1: the whole voxel blocks).
-// `start` and `leaves_at`: of the ray, from the voxel's centre, voxel units.
+// Where the ray starts, enters and leaves the voxel: from the voxel's centre, voxel units.
 bool voxel_blocks(uint flags, vec4 surface, vec3 direction, float t, vec3 start, vec3 enters_at, vec3 leaves_at, out bool front) {
     vec3 n = surface.xyz;
     float size = length(n), facing = -dot(n, direction);
-    front = facing >= 0.0;
     uint leaves = flags >> 2;
+    front = dot(front_of(n, leaves), direction) <= 0.0;
     bool faces = facing > facing_threshold * size;
     if (!faces) {
         if (t < 2.0) return false;

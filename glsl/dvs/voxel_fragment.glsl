@@ -32,5 +32,8 @@ void place_fragment(inout VoxelFragment f, vec3 a, vec3 b, vec3 c, vec3 facing, 
     f.area = 0.0;
     if (emission_share == 1 && f.emission != vec3(0.0)) f.area = triangle_area_in_voxel(a, b, c, voxel);
 }
+float emission_weight(VoxelFragment f) {
+    return emission_share == 1 ? f.area : 1.0;
+}
 
 #endif

@@ -11,15 +11,16 @@ vec3 leaf_axis(int leaf) {
     return axis;
 }
 
-// Unit. Where normals cancel: the first leaf's axis.
-vec3 voxel_normal(ivec3 voxel) {
-    vec3 n = texelFetch(voxels_normal, voxel, 0).xyz;
+// Which way the front faces, given the averaged normal: where normals cancel, along the first leaf's axis.
+vec3 front_of(vec3 n, uint leaves) {
     float size = length(n);
     if (size > 0.05) return n / size;
-    uint leaves = texelFetch(voxels_flags, voxel, 0).r >> 2;
     for (int leaf = 0; leaf < 6; ++leaf)
         if ((leaves & (1u << leaf)) != 0u) return leaf_axis(leaf);
     return vec3(0.0, 1.0, 0.0);
+}
+vec3 voxel_normal(ivec3 voxel) {
+    return front_of(texelFetch(voxels_normal, voxel, 0).xyz, texelFetch(voxels_flags, voxel, 0).r >> 2);
 }
 
 // Whether a surface in the voxel faces away from its averaged normal.

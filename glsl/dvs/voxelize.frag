@@ -2,7 +2,6 @@
 // the triangle's dominant axis; outside the triangle's bounding box it is dropped. fill = centre, as published, writes the
 // voxel in which the triangle's plane crosses the column's middle; exact: each voxel of the column that it overlaps.
 #define SCENE_MATERIALS
-#define LIST_WITHOUT_DISPATCH
 #include "lib/material_raster.glsl"
 #include "lib/triangle_box.glsl"
 #include "dvs/voxel_fragment.glsl"
@@ -31,10 +30,6 @@ void store(ivec3 voxel, VoxelFragment f, vec3 facing) {
     if (taken_by_static(voxel)) return;
     if (operation == 0) {
         store_mark(voxel, surface_triangle);
-        return;
-    }
-    if (operation == 3) {
-        store_link(voxel, surface_triangle);
         return;
     }
     place_fragment(f, surface_a, surface_b, surface_c, facing, voxel);

@@ -35,16 +35,10 @@ struct TrianglePoint {
     float parallelogram;       // of the two edges, squared units of the positions
 };
 
-// At the point of the triangle's plane next to `at`, clamped into the triangle. `positions` are the corners in the units of
-// `at`.
-TrianglePoint triangle_point(Vertex corners[3], vec3 positions[3], vec3 at) {
-    vec3 e1 = positions[1] - positions[0], e2 = positions[2] - positions[0], d = at - positions[0];
-    float d11 = dot(e1, e1), d12 = dot(e1, e2), d22 = dot(e2, e2), d1 = dot(d, e1), d2 = dot(d, e2);
-    float area = max(d11 * d22 - d12 * d12, 1.0e-20);
-    vec2 share = clamp(vec2(d22 * d1 - d12 * d2, d11 * d2 - d12 * d1) / area, vec2(0.0), vec2(1.0));
-    share /= max(share.x + share.y, 1.0);
+// At the point that is the corners' weighted mean. `parallelogram`: area of the two edges', in squared units of a footprint.
+TrianglePoint triangle_point_of(Vertex corners[3], vec3 weight, float parallelogram) {
     TrianglePoint point;
-    point.weight = vec3(1.0 - share.x - share.y, share);
+    point.weight = weight;
     point.uv0 = point.uv1 = vec2(0.0);
     point.colour = vec4(0.0);
     for (int i = 0; i < 3; ++i) {
@@ -54,8 +48,19 @@ TrianglePoint triangle_point(Vertex corners[3], vec3 positions[3], vec3 at) {
     }
     point.edges_uv0 = mat2(corner_uv0(corners[1]) - corner_uv0(corners[0]), corner_uv0(corners[2]) - corner_uv0(corners[0]));
     point.edges_uv1 = mat2(corners[1].uv1 - corners[0].uv1, corners[2].uv1 - corners[0].uv1);
-    point.parallelogram = sqrt(area);
+    point.parallelogram = parallelogram;
     return point;
+}
+
+// At the point of the triangle's plane next to `at`, clamped into the triangle. `positions` are the corners in the units of
+// `at`.
+TrianglePoint triangle_point(Vertex corners[3], vec3 positions[3], vec3 at) {
+    vec3 e1 = positions[1] - positions[0], e2 = positions[2] - positions[0], d = at - positions[0];
+    float d11 = dot(e1, e1), d12 = dot(e1, e2), d22 = dot(e2, e2), d1 = dot(d, e1), d2 = dot(d, e2);
+    float area = max(d11 * d22 - d12 * d12, 1.0e-20);
+    vec2 share = clamp(vec2(d22 * d1 - d12 * d2, d11 * d2 - d12 * d1) / area, vec2(0.0), vec2(1.0));
+    share /= max(share.x + share.y, 1.0);
+    return triangle_point_of(corners, vec3(1.0 - share.x - share.y, share), sqrt(area));
 }
 
 // A texture there, averaged over one squared unit of the positions up to mip `coarsest`; white where there is none.
@@ -66,11 +71,15 @@ vec4 sample_at_point(TextureUse use, TrianglePoint point, float coarsest) {
     return sample_scene_texture(use, point.uv0, point.uv1, footprint, coarsest);
 }
 
-// The alpha of a triangle's surface at the point next to `at`; the texture is averaged over up to 16 × 16 texels (beyond,
-// thin leaves would blur away).
-float alpha_at(Material material, Vertex corners[3], vec3 positions[3], vec3 at) {
-    TrianglePoint point = triangle_point(corners, positions, at);
+// The alpha of a triangle's surface; the texture is averaged over up to 16 × 16 texels (beyond, thin leaves would blur
+// away).
+float alpha_of(Material material, TrianglePoint point) {
     return material.base_colour.a * point.colour.a * sample_at_point(material.base_colour_texture, point, 4.0).a;
+}
+
+// The same at the point next to `at`.
+float alpha_at(Material material, Vertex corners[3], vec3 positions[3], vec3 at) {
+    return alpha_of(material, triangle_point(corners, positions, at));
 }
 
 #endif

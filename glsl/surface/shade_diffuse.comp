@@ -3,48 +3,16 @@
 // times how well a texel's surface agrees in normal and in distance to the pixel's plane.
 #include "lib/frame.glsl"
 #include "lib/brdf.glsl"
+#include "surface/upsample.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform sampler2D gbuffer_albedo;
-uniform sampler2D gbuffer_normal;
-uniform sampler2D gbuffer_depth;
 uniform sampler2D gbuffer_roughness_metallic;
 uniform sampler2D gathered_irradiance; // E/π, W/(sr·m²)
 layout(FORMAT_out_indirect_diffuse) writeonly uniform image2D out_indirect_diffuse;
 
 uniform int interleave = 1;            //! [1, 8] (texels) width of the box: as the gather's interleave
-uniform float normal_power = 16.0;     //! [0, 256] upsampling: weights fall with ⟨n·n'⟩ to this power
-uniform float plane_distance = 0.01;   //! [1e-4, 1] upsampling: share of the distance to the viewer at which a texel off the plane counts 1/e
-
-vec3 upsampled(ivec2 pixel, vec3 position, vec3 n) {
-    ivec2 size = textureSize(gathered_irradiance, 0);
-    if (size == resolution && interleave == 1) return texelFetch(gathered_irradiance, pixel, 0).rgb;
-    vec2 at = (vec2(pixel) + 0.5) * vec2(size) / vec2(resolution) - 0.5; // in texels, from the first one's middle
-    float half_width = 0.5 * float(interleave);
-    ivec2 low = ivec2(floor(at - half_width + 0.5)), high = ivec2(floor(at + half_width + 0.5));
-    float tolerance = plane_distance * length(position - camera_position);
-    vec3 sum = vec3(0.0), nearest = vec3(0.0);
-    float total = 0.0, best = -1.0;
-    for (int y = low.y; y <= high.y; ++y) {
-        for (int x = low.x; x <= high.x; ++x) {
-            // The part of the texel that lies in the box. (For a width of one: bilinear weights.)
-            vec2 inside = clamp(half_width + 0.5 - abs(vec2(x, y) - at), vec2(0.0), vec2(1.0));
-            ivec2 texel = clamp(ivec2(x, y), ivec2(0), size - 1);
-            ivec2 there = min((2 * texel + 1) * resolution / (2 * size), resolution - 1);
-            float depth = texelFetch(gbuffer_depth, there, 0).r;
-            if (depth <= 0.0) continue;
-            float off_plane = dot(n, world_position(there, depth) - position) / tolerance;
-            float agree = pow(max(dot(n, texelFetch(gbuffer_normal, there, 0).xyz), 0.0), normal_power) * exp(-off_plane * off_plane);
-            vec3 value = texelFetch(gathered_irradiance, texel, 0).rgb;
-            float weight = inside.x * inside.y * agree;
-            sum += weight * value;
-            total += weight;
-            if (agree > best) best = agree, nearest = value;
-        }
-    }
-    return total > 1.0e-4 ? sum / total : nearest;
-}
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -52,9 +20,8 @@ void main() {
     float depth = texelFetch(gbuffer_depth, pixel, 0).r;
     vec3 radiance = vec3(0.0);
     if (depth > 0.0) {
-        vec3 n = normalize(texelFetch(gbuffer_normal, pixel, 0).xyz);
         float metallic = texelFetch(gbuffer_roughness_metallic, pixel, 0).g;
-        radiance = k_pi * brdf_diffuse(texelFetch(gbuffer_albedo, pixel, 0).rgb, metallic) * upsampled(pixel, world_position(pixel, depth), n);
+        radiance = k_pi * brdf_diffuse(texelFetch(gbuffer_albedo, pixel, 0).rgb, metallic) * upsampled(gathered_irradiance, pixel, interleave).rgb;
     }
     imageStore(out_indirect_diffuse, pixel, vec4(min(radiance, vec3(65504.0)), 1.0));
 }

@@ -6,6 +6,7 @@
 // bounce of DVS).
 // Neighbouring pixels may take different sets (interleaved sampling, Keller & Heidrich 2001; Segovia et al. 2006):
 // `part` in [0, 1) says which of them. Spirals then take the N cones whose (i + part)/N interleave; sixes turn.
+#include "lib/interleave.glsl"
 
 const float k_golden_angle = 2.39996322973;
 
@@ -18,16 +19,6 @@ mat3 frame_around(vec3 n) {
 
 int cone_count(int set, int spiral_cones) {
     return set == 2 ? spiral_cones : (set == 3 ? 4 : 6);
-}
-
-// Which of n·n sets a texel takes, as `part`; n = 1: ½. The order is that of a Bayer matrix for n = 2 and 4.
-float interleaved_part(ivec2 texel, int n) {
-    if (n <= 1) return 0.5;
-    ivec2 p = texel % n;
-    int order = p.x + n * p.y;
-    if (n == 2) order = (p.x ^ p.y) * 2 + p.y;
-    if (n == 4) order = (((p.x ^ p.y) & 1) * 2 + (p.y & 1)) * 4 + ((p.x ^ p.y) >> 1) * 2 + (p.y >> 1);
-    return (float(order) + 0.5) / float(n * n);
 }
 
 // Direction of cone i in the frame of the normal, and in w its weight; the weights sum to 1.

@@ -18,21 +18,13 @@
 
 // The first triangle of each draw, in order; one more entry at the end.
 layout(std430) readonly buffer voxels_draw_starts { uint draw_starts[]; };
+#define DRAW_START(i) draw_starts[i]
+#include "lib/draw_of_triangle.glsl"
 
 uniform int resolution_of_grid;
 
 const int k_lanes = 16;    // invocations a triangle
 const uint k_row = 65536u; // triangles in a row of the dispatch
-
-int draw_of(uint triangle, int draw_count) {
-    int low = 0, high = draw_count; // draw_starts[low] <= triangle < draw_starts[high]
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        if (draw_starts[middle] <= triangle) low = middle;
-        else high = middle;
-    }
-    return low;
-}
 
 vec2 plane_of(vec3 p, int axis) {
     return axis == 0 ? p.yz : (axis == 1 ? p.zx : p.xy);
@@ -75,6 +67,13 @@ vec3 facing_of(VisitedTriangle t, Vertex corners[3]) {
     return dot(normal, mat3(draws[t.draw].normal_matrix) * authored) < 0.0 ? -normal / size : normal / size;
 }
 
+// Whether the triangle has a surface in the voxel: it overlaps, and is not cut away by its alpha there.
+bool triangle_fills(VisitedTriangle t, ivec3 voxel) {
+    if (!triangle_overlaps_voxel(t.positions[0], t.positions[1], t.positions[2], voxel)) return false;
+    float cutoff = materials[t.material].alpha_cutoff;
+    return cutoff < 0.0 || alpha_at(materials[t.material], corners_of(t), t.positions, vec3(voxel) + 0.5) >= cutoff;
+}
+
 void visit_voxel(VisitedTriangle triangle, ivec3 voxel);
 
 void visit_triangles() {
@@ -97,7 +96,6 @@ void visit_triangles() {
     int lane = int(gl_GlobalInvocationID.x) % k_lanes;
     if (lane >= columns) return;
 
-    float cutoff = materials[t.material].alpha_cutoff;
     vec3 across = normal;
     across[axis] = 0.0;
     float reach = 0.5 * (abs(across.x) + abs(across.y) + abs(across.z)) / abs(normal[axis]) + 1.0e-3;
@@ -108,8 +106,7 @@ void visit_triangles() {
         int from = max(int(floor(depth - reach)), low[axis]), to = min(int(floor(depth + reach)), high[axis]);
         for (int d = from; d <= to; ++d) { // at most four: the slopes are at most 1
             ivec3 voxel = unproject(column, d, axis);
-            if (SKIP_VOXEL(voxel) || !triangle_overlaps_voxel(p[0], p[1], p[2], voxel)) continue;
-            if (cutoff >= 0.0 && alpha_at(materials[t.material], corners_of(t), p, vec3(voxel) + 0.5) < cutoff) continue;
+            if (SKIP_VOXEL(voxel) || !triangle_fills(t, voxel)) continue;
             visit_voxel(t, voxel);
         }
     }

@@ -108,7 +108,7 @@ void drop_lone_alpha(Image& a, Image& b) {
     if (b.channels == 4 && a.channels == 3) b = three_channels(b);
 }
 
-static bool is_radiance(const std::string& part) {
+bool is_radiance(const std::string& part) {
     return part.find("ambient_occlusion") == std::string::npos && part.find("display") == std::string::npos;
 }
 

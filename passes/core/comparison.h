@@ -56,6 +56,9 @@ std::vector<SurfaceComparison> compare_surfaces(const LayeredImage& test, const 
 /// The layer, or sum of layers, that `part` names. Throws Error naming `what` when there is none.
 Image part_of(const LayeredImage& image, const std::string& part, const std::string& what);
 
+/// Whether a part is light, to be tone-mapped before it is looked at; occlusion and display values are not.
+bool is_radiance(const std::string& part);
+
 /// RGBA against RGB: the alpha of a GPU's texture is no part of the picture, and is dropped.
 void drop_lone_alpha(Image& a, Image& b);
 

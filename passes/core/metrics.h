@@ -60,6 +60,10 @@ struct ErrorFigures {
     double reference_noise = 0;
     /// √max(0, rmse² − variance) / mean(b): relative RMSE against a reference without noise, on average.
     double relative_rmse_denoised = 0;
+
+    /// Absolute, in the images' own units: what counts for occlusion.
+    double mean_difference() const { return mean - reference_mean; }
+    double rmse_denoised() const { return relative_rmse_denoised * reference_mean; }
 };
 
 /// Throws Error as said above. `reference_rms_noise` is the RMS standard error of the reference's values (in the units

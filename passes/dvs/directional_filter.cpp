@@ -54,7 +54,6 @@ class VoxelFilterPass : public Pass {
         ResourceDeclaration& directional =
             d.creates("dvs.directional", ResourceKind::texture_3d, "rgba16f", {"2 * " + tile, "3 * " + tile, tile});
         directional.mips = "rint(log2(" + tile + ")) + 1";
-        directional.overwritten = !directional_leaves_; // leaves are written where there are surfaces
         filter_.declare(d);
     }
     void execute(PassContext& c) override { filter_.run(c); }

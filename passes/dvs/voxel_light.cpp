@@ -4,11 +4,12 @@
 
 namespace bounce {
 
-/// A radiance volume; behind the front sides' the back sides' when there are two.
-static void create_radiance(Declaration& d, const std::string& name, const std::string& sides) {
+/// A radiance volume; behind the front sides' the back sides' when there are two. Over the list, only occupied voxels
+/// are written.
+static void create_radiance(Declaration& d, const std::string& name, const std::string& sides, bool occupied_only) {
     d.creates(name, ResourceKind::texture_3d, "rgba16f",
               {"voxels.albedo.width", "voxels.albedo.width", "voxels.albedo.width * " + sides})
-        .overwritten = true;
+        .overwritten = !occupied_only;
 }
 
 /// Over the list of occupied voxels, or over all.
@@ -21,7 +22,8 @@ static void dispatch_voxels(PassContext& c, const std::string& program, bool occ
 }
 
 static const char* const k_occupied_only =
-    "one invocation for each occupied voxel, from a list; off: one for each voxel of the grid, as published";
+    "one invocation for each occupied voxel, from a list; off: one for each voxel of the grid, as published, with the "
+    "same result";
 
 class VoxelDirectPass : public Pass {
   public:
@@ -36,7 +38,7 @@ class VoxelDirectPass : public Pass {
         return facts.lights() || facts.emissive_materials ? "" : "the scene has neither lights nor emissive materials";
     }
     void declare(Declaration& d) override {
-        create_radiance(d, "dvs.radiance", two_sided_ ? "2" : "1");
+        create_radiance(d, "dvs.radiance", two_sided_ ? "2" : "1", occupied_only_);
         d.uses("direct");
         d.reads("voxels.counts", Usage::indirect);
         emission_ = d.facts.emissive_materials > 0;
@@ -47,16 +49,16 @@ class VoxelDirectPass : public Pass {
     }
 
   private:
-    bool occupied_only_ = false, two_sided_ = false, emission_ = false;
+    bool occupied_only_ = true, two_sided_ = false, emission_ = false;
 };
 
 class VoxelBouncePass : public Pass {
   public:
     void describe(PassDescription& description) override {
         description.program("bounce", {"dvs/bounce.comp"});
+        description.program("bounce_again", {"dvs/bounce_again.comp"});
         DirectionalFilter::describe(description);
         description.constant("two_sided");
-        description.constant("from_previous");
         description.parameters.add("occupied_only", occupied_only_, k_occupied_only);
         description.parameters.add(
             "bounces", bounces_, {1, 8}, "",
@@ -65,10 +67,17 @@ class VoxelBouncePass : public Pass {
     std::string unneeded(const SceneFacts&) const override {
         return bounces_ > 1 ? "" : "one bounce, the one at the pixel, needs none between voxels";
     }
+    std::vector<std::pair<std::string, std::string>> stand_ins() const override {
+        return {{"dvs.bounced", "dvs.radiance"}};
+    }
     void declare(Declaration& d) override {
-        create_radiance(d, "dvs.bounced", "(dvs.radiance.depth / dvs.radiance.width)");
-        if (bounces_ > 2) create_radiance(d, "dvs.previous", "(dvs.radiance.depth / dvs.radiance.width)");
+        create_radiance(d, "dvs.bounced", "(dvs.radiance.depth / dvs.radiance.width)", occupied_only_);
         d.uses("bounce");
+        if (bounces_ > 2) {
+            create_radiance(d, "dvs.previous", "(dvs.radiance.depth / dvs.radiance.width)", false);
+            d.writes("dvs.previous", Usage::image); // by a copy
+            d.uses("bounce_again");
+        }
         d.reads("voxels.counts", Usage::indirect);
         filter_.declare(d);
     }
@@ -77,20 +86,19 @@ class VoxelBouncePass : public Pass {
         c.set("two_sided", size.z > size.x);
         // The bounce after the next starts from what this one made.
         for (int bounce = 1; bounce < bounces_; ++bounce) {
-            c.set("from_previous", bounce > 1);
             if (bounce > 1) {
                 if (c.has("dvs.directional")) filter_.run(c);
                 glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
                 glCopyImageSubData(c.texture("dvs.bounced").id(), GL_TEXTURE_3D, 0, 0, 0, 0,
                                    c.texture("dvs.previous").id(), GL_TEXTURE_3D, 0, 0, 0, 0, size.x, size.y, size.z);
             }
-            dispatch_voxels(c, "bounce", occupied_only_);
+            dispatch_voxels(c, bounce == 1 ? "bounce" : "bounce_again", occupied_only_);
             DirectionalFilter::wait();
         }
     }
 
   private:
-    bool occupied_only_ = false;
+    bool occupied_only_ = true;
     int bounces_ = 2;
     DirectionalFilter filter_;
 };

@@ -12,11 +12,12 @@ namespace bounce {
 class VoxelizationPass : public Pass {
   public:
     void describe(PassDescription& description) override {
-        for (const char* name :
-             {"mark", "voxelize", "compact", "finish_list", "clear_dynamic", "forget_dynamic", "resolve"})
+        for (const char* name : {"mark", "voxelize", "compact", "finish_list", "clear_dynamic", "forget_dynamic",
+                                 "resolve", "triangle_bounds", "gather_fragments"})
             description.program(name, {std::string("dvs/") + name + ".comp"});
         description.program("raster", {"dvs/voxelize.vert", "dvs/voxelize.geom", "dvs/voxelize.frag"});
-        for (const char* name : {"resolution_of_grid", "operation", "kind", "emission_scale", "plane_sums_kept"})
+        for (const char* name :
+             {"resolution_of_grid", "operation", "kind", "emission_scale", "triangle_count", "level", "first_box"})
             description.constant(name);
         ParameterSet& p = description.parameters;
         p.add("resolution", resolution_, {8, 512}, "voxels", "along each side of the grid; a power of two");
@@ -27,12 +28,11 @@ class VoxelizationPass : public Pass {
         p.add_choice(
             "averaging", averaging_, {"average", "last_writer", "sum", "gather"},
             "how the fragments of a voxel become one. average: packed running means by compare-and-swap, as "
-            "published; last_writer: one triangle's surface; sum: integer sums, the same every run; gather: each voxel "
-            "makes those sums itself, from a list of its triangles");
+            "published; last_writer: one triangle's surface; sum: integer sums by atomic adds, the same every "
+            "run; gather: the same sums without atomics, each voxel going through its triangles (compute route)");
         p.add_choice("emission_share", emission_share_, {"mean", "covered"},
                      "averaging=sum or gather. mean: emission is averaged over triangles, like all else; covered: it "
-                     "counts by the "
-                     "part of the voxel's mean plane that emitters cover");
+                     "counts by the part of the voxel's mean plane that emitters cover");
         p.add("planes", planes_,
               "all but averaging=average: a voxel also knows where its mean plane lies, and exact hits are with "
               "that plane; off: the whole voxel blocks");
@@ -74,17 +74,18 @@ class VoxelizationPass : public Pass {
             volume("voxels.packed_normal", "r32ui");
             if (emission_) volume("voxels.packed_emission", "r32ui");
         } else {
-            list("voxels.sums", room, averaging_ == Averaging::sum ? 12 * 4 : 4);
+            list("voxels.sums", room, averaging_ == Averaging::last_writer ? 4 : 13 * 4);
         }
-        // A fragment each; triangles smaller than a voxel may lie in several.
-        if (averaging_ == Averaging::gather)
-            list("voxels.links", std::to_string(2 * face * room_ + 4 * int64_t(d.facts.triangles)), 8);
-        plane_sums_ =
-            averaging_ == Averaging::sum && (planes_ || (emission_ && emission_share_ == EmissionShare::covered));
-        if (plane_sums_) list("voxels.plane_sums", room, 2 * 4);
         d.creates_buffer("voxels.draw_starts", std::to_string(d.facts.instances + 1), 4).persistent = true;
         d.writes("voxels.draw_starts", Usage::storage);
-        if (route_ == Route::raster) {
+        if (averaging_ == Averaging::gather) {
+            // Boxes around triangles, around 64 of them, and around 64 of those: two corners each.
+            uint64_t boxes = d.facts.triangles + d.facts.triangles / 64 + d.facts.triangles / 4096 + 2;
+            list("voxels.triangle_bounds", std::to_string(2 * boxes), 16);
+            d.uses("triangle_bounds");
+            d.uses("gather_fragments");
+        }
+        if (by_raster()) {
             d.uses("raster");
         } else {
             if (averaging_ != Averaging::average) d.uses("mark");
@@ -92,6 +93,9 @@ class VoxelizationPass : public Pass {
         }
         for (const char* program : {"compact", "finish_list", "resolve"})
             d.uses(program);
+        d.counts("occupied voxels", "voxels.counts", 3);
+        d.counts("of them of static geometry", "voxels.counts", 4);
+        d.counts("voxels that the list has no room for", "voxels.counts", 5, true);
         bool dynamic = d.facts.dynamic_instances > 0;
         if (dynamic) d.uses("clear_dynamic"), d.uses("forget_dynamic");
     }
@@ -104,7 +108,6 @@ class VoxelizationPass : public Pass {
             brightest = std::max({brightest, m.emission.x, m.emission.y, m.emission.z});
         c.set("resolution_of_grid", resolution_);
         c.set("emission_scale", emission_ ? brightest : 0.0f);
-        c.set("plane_sums_kept", plane_sums_);
 
         std::vector<char> state = static_state(c);
         if (state != state_) {
@@ -125,6 +128,10 @@ class VoxelizationPass : public Pass {
     enum class Averaging { average, last_writer, sum, gather };
     enum class EmissionShare { mean, covered };
     static constexpr int k_static = 1, k_dynamic = 2; // as in dvs/list.glsl
+    static constexpr int k_row = 65536;               // as in voxel/triangle_voxels.glsl
+
+    /// A voxel's owner finds the triangles that overlap it exactly: so must those that mark it.
+    bool by_raster() const { return route_ == Route::raster && averaging_ != Averaging::gather; }
 
     static void wait() {
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
@@ -143,6 +150,7 @@ class VoxelizationPass : public Pass {
             add(c.number(c.plan().id + ".leaf_threshold").value_or(0)),
             add(c.number(c.plan().id + ".plane_coherence").value_or(0)),
             add(c.number(c.plan().id + ".fill").value_or(0));
+        add(c.frame().scene_min), add(c.frame().scene_max); // the grid
         for (const GpuDraw& draw : c.scene().draw_list()) {
             if (draw.flags & 1u) continue;
             add(draw.world), add(draw.material), add(draw.first_index), add(draw.index_count);
@@ -154,7 +162,8 @@ class VoxelizationPass : public Pass {
     }
 
     void forget_all(PassContext& c) {
-        std::vector<const char*> volumes{"voxels.place", "voxels.flags", "voxels.albedo", "voxels.normal"};
+        std::vector<const char*> volumes{"voxels.place", "voxels.flags", "voxels.bricks", "voxels.albedo",
+                                         "voxels.normal"};
         if (emission_) volumes.push_back("voxels.emission");
         if (averaging_ == Averaging::average) {
             volumes.insert(volumes.end(), {"voxels.packed_albedo", "voxels.packed_normal"});
@@ -177,7 +186,7 @@ class VoxelizationPass : public Pass {
         buffer.update(0, starts.size() * sizeof(uint32_t), starts.data());
         int triangles = int(starts.back());
         auto visit = [&](const char* by_compute) {
-            if (route_ == Route::raster) {
+            if (by_raster()) {
                 Targets none;
                 none.size = glm::ivec2(resolution_);
                 DrawOptions options;
@@ -187,7 +196,7 @@ class VoxelizationPass : public Pass {
                 c.draw_scene("raster", none, options);
                 return;
             }
-            constexpr int k_lanes = 16, k_row = 65536; // as in voxel/triangle_voxels.glsl
+            constexpr int k_lanes = 16; // as in voxel/triangle_voxels.glsl
             c.dispatch(by_compute, {std::min(triangles, k_row) * k_lanes, (triangles + k_row - 1) / k_row, 1});
         };
         c.set("kind", kind);
@@ -195,7 +204,8 @@ class VoxelizationPass : public Pass {
         wait();
         visit(averaging_ == Averaging::average ? "voxelize" : "mark");
         wait();
-        c.dispatch("compact", glm::ivec3(resolution_));
+        int bricks = (resolution_ + 3) / 4;
+        c.dispatch("compact", {bricks * bricks * bricks, 1, 1});
         wait();
         c.dispatch("finish_list", {1, 1, 1});
         wait();
@@ -203,20 +213,32 @@ class VoxelizationPass : public Pass {
             c.set("operation", 1);
             visit("voxelize");
             wait();
-        } else if (averaging_ == Averaging::gather) {
-            c.set("operation", 3);
-            visit("mark");
-            wait();
         }
+        if (averaging_ == Averaging::gather) gather_fragments(c, triangles);
         c.dispatch_indirect("resolve", "voxels.counts");
         wait();
+    }
+
+    void gather_fragments(PassContext& c, int triangles) {
+        c.set("triangle_count", triangles);
+        for (int level = 0; level < 3; ++level) {
+            c.set("level", level);
+            int boxes = (triangles + (1 << (6 * level)) - 1) >> (6 * level);
+            c.dispatch("triangle_bounds", {std::min(boxes, k_row), (boxes + k_row - 1) / k_row, 1});
+            wait();
+        }
+        for (int first = 0; first < (triangles + 4095) / 4096; first += 8) {
+            c.set("first_box", first);
+            c.dispatch_indirect("gather_fragments", "voxels.counts");
+            wait();
+        }
     }
 
     int resolution_ = 128;
     Route route_ = Route::raster;
     Averaging averaging_ = Averaging::average;
     EmissionShare emission_share_ = EmissionShare::mean;
-    bool static_once_ = true, emission_ = false, planes_ = false, plane_sums_ = false;
+    bool static_once_ = true, emission_ = false, planes_ = false;
     int room_ = 32;
     std::vector<char> state_; ///< what the static voxels were made of; empty: there are none
     uint64_t frames_ = 0;

@@ -290,4 +290,13 @@ void PassContext::draw_arrays(const std::string& name, const Targets& targets, G
     glDrawArraysInstanced(mode, 0, count, instances);
 }
 
+void PassContext::draw_arrays_indirect(const std::string& name, const Targets& targets, GLenum mode,
+                                       const std::string& slot_of_counts, GLintptr offset) {
+    bind_targets(targets);
+    use(name);
+    glBindVertexArray(graph_.empty_vertex_array_.id());
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffer(slot_of_counts).id());
+    glDrawArraysIndirect(mode, reinterpret_cast<const void*>(offset));
+}
+
 } // namespace bounce

@@ -69,6 +69,9 @@ class PassContext {
     void draw_fullscreen(const std::string& program, const Targets& targets);
     /// `count` vertices of no attributes (points, lines, triangles).
     void draw_arrays(const std::string& program, const Targets& targets, GLenum mode, int count, int instances = 1);
+    /// The same, with count and instances from a buffer (glDrawArraysIndirect's four numbers).
+    void draw_arrays_indirect(const std::string& program, const Targets& targets, GLenum mode, const std::string& slot,
+                              GLintptr offset = 0);
 
   private:
     const PlanSlot& slot(const std::string& name) const;

@@ -4,8 +4,8 @@ namespace bounce {
 
 constexpr size_t k_most_pending = 3; // frames; beyond them the newest is skipped, never waited for
 
-void Counters::collect(const Plan& plan, const Allocations& allocations) {
-    take(0);
+bool Counters::collect(const Plan& plan, const Allocations& allocations) {
+    bool news = take(0);
     std::vector<CounterValue> values;
     for (const PlanPass& pass : plan.passes) {
         for (const PlanCounter& counter : pass.counters)
@@ -13,9 +13,9 @@ void Counters::collect(const Plan& plan, const Allocations& allocations) {
     }
     if (values.empty()) {
         newest_.clear();
-        return;
+        return false;
     }
-    if (pending_.size() >= k_most_pending) return;
+    if (pending_.size() >= k_most_pending) return news;
     Pending next;
     uint64_t bytes = values.size() * sizeof(uint32_t);
     for (Buffer& buffer : spare_) {
@@ -36,13 +36,15 @@ void Counters::collect(const Plan& plan, const Allocations& allocations) {
     next.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     next.values = std::move(values);
     pending_.push_back(std::move(next));
+    return news;
 }
 
-void Counters::take(GLuint64 wait) {
+bool Counters::take(GLuint64 wait) {
+    bool news = false;
     while (!pending_.empty()) {
         Pending& oldest = pending_.front();
         GLenum state = glClientWaitSync(oldest.fence, GL_SYNC_FLUSH_COMMANDS_BIT, wait);
-        if (state != GL_ALREADY_SIGNALED && state != GL_CONDITION_SATISFIED) return;
+        if (state != GL_ALREADY_SIGNALED && state != GL_CONDITION_SATISFIED) return news;
         std::vector<int32_t> numbers(oldest.values.size());
         oldest.copy.read(0, numbers.size() * sizeof(int32_t), numbers.data());
         for (size_t i = 0; i < numbers.size(); ++i)
@@ -51,11 +53,13 @@ void Counters::take(GLuint64 wait) {
         glDeleteSync(oldest.fence);
         spare_.push_back(std::move(oldest.copy));
         pending_.pop_front();
+        news = true;
     }
+    return news;
 }
 
-void Counters::finish() {
-    take(10'000'000'000); // ns
+bool Counters::finish() {
+    return take(10'000'000'000); // ns
 }
 
 void Counters::drop() {

@@ -29,10 +29,11 @@ class Counters {
     Counters& operator=(const Counters&) = delete;
 
     /// Copies the counters of `plan` aside, after the passes of a frame. Takes those of earlier frames that are done.
-    void collect(const Plan& plan, const Allocations& allocations);
-    /// Waits for the newest (headless runs, before they report).
-    void finish();
-    /// Before the plan changes: what is on its way is void.
+    /// Returns true when `newest` changed.
+    bool collect(const Plan& plan, const Allocations& allocations);
+    /// Waits for the newest (headless runs, before they report). Returns true when `newest` changed.
+    bool finish();
+    /// Forgets what was counted, and what is on its way.
     void drop();
     const std::vector<CounterValue>& newest() const { return newest_; }
 
@@ -42,7 +43,7 @@ class Counters {
         GLsync fence = nullptr;
         std::vector<CounterValue> values; ///< without the numbers
     };
-    void take(GLuint64 wait);
+    bool take(GLuint64 wait);
 
     std::deque<Pending> pending_;
     std::vector<Buffer> spare_;

@@ -13,6 +13,7 @@ struct Declared {
     std::vector<CounterDeclaration> counters;
     std::vector<BindEntry> targets; ///< per use: the resource it points at
     int repeat_from = 0, repeat_to = 1;
+    std::string loop;
     std::string declined; ///< reason, or empty
     bool faulty = false;  ///< an error of it has been told
 };

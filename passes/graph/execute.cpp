@@ -5,6 +5,7 @@
 #include "graph/graph.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace bounce {
 
@@ -32,8 +33,14 @@ void Graph::execute(const FrameInputs& inputs) {
     inputs_ = &inputs;
     non_finite_.clear();
     frame_buffer_.update(0, sizeof(FrameConstants), &inputs.constants);
-    for (const PlanPass& pass : plan_.passes)
-        run_pass(pass);
+    for (size_t i = 0; i < plan_.passes.size();) {
+        size_t last = i;
+        const std::string& loop = plan_.passes[i].loop;
+        while (!loop.empty() && last + 1 < plan_.passes.size() && plan_.passes[last + 1].loop == loop)
+            ++last;
+        run_loop(i, last);
+        i = last + 1;
+    }
     std::erase_if(broke_, [&](const auto& broken) {
         return std::none_of(plan_.passes.begin(), plan_.passes.end(), [&](auto& p) { return p.id == broken.first; });
     });
@@ -41,7 +48,7 @@ void Graph::execute(const FrameInputs& inputs) {
                     GL_BUFFER_UPDATE_BARRIER_BIT); // the copies wait for shaders' stores
     allocations_.keep_previous(plan_);
     history_valid_ = true;
-    counters_.collect(plan_, allocations_);
+    if (counters_.collect(plan_, allocations_)) ask_whether_outgrown();
     glMemoryBarrier(GL_ALL_BARRIER_BITS); // whoever looks at the results (panels, readback) sees them
     default_state();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -50,22 +57,44 @@ void Graph::execute(const FrameInputs& inputs) {
     ++frames_;
 }
 
-void Graph::run_pass(const PlanPass& pass) {
+/// One pass with all its steps, or the passes of a loop step by step.
+void Graph::run_loop(size_t first, size_t last) {
+    const PlanPass& head = plan_.passes[first];
+    if (head.loop.empty()) {
+        run_pass(head, head.repeat_from, head.repeat_to);
+        return;
+    }
+    for (int step = head.repeat_from; step < head.repeat_to; ++step) {
+        // What one of them reads, or overwrites, any other may have touched in the step before.
+        if (step > head.repeat_from) glMemoryBarrier(GL_ALL_BARRIER_BITS);
+        for (size_t i = first; i <= last; ++i)
+            run_pass(plan_.passes[i], step, step + 1);
+    }
+}
+
+void Graph::run_pass(const PlanPass& pass, int from, int to) {
     PassNode& node = *model_->nodes()[size_t(pass.node)];
     DebugGroup group(pass.id);
     Times& times = times_[pass.id];
-    if (!times.timer) times.timer = std::make_unique<GpuTimer>(timer_mode_);
-    times.timer->begin();
+    size_t count = pass.loop.empty() ? 1 : size_t(std::max(pass.repeat_to - pass.repeat_from, 1));
+    if (times.parts.size() != count) {
+        times.parts.clear();
+        times.parts.resize(count);
+    }
+    auto& timer = times.parts[pass.loop.empty() ? 0 : size_t(from - pass.repeat_from)].timer;
+    if (!timer) timer = std::make_unique<GpuTimer>(timer_mode_);
+    timer->begin();
     bool usable = std::all_of(node.programs.begin(), node.programs.end(),
                               [&](auto& p) { return p->usable() || !pass.runs(p->name()); });
-    for (int resource : pass.clears) {
-        allocations_.clear(resource, plan_.resources[size_t(resource)].declaration.neutral);
+    if (from == pass.repeat_from) {
+        for (int resource : pass.clears)
+            allocations_.clear(resource, plan_.resources[size_t(resource)].declaration.neutral);
     }
     if (pass.barriers) glMemoryBarrier(pass.barriers);
     if (usable) {
         try {
-            for (int step = pass.repeat_from; step < pass.repeat_to; ++step) {
-                if (step > pass.repeat_from && pass.step_barriers) glMemoryBarrier(pass.step_barriers);
+            for (int step = from; step < to; ++step) {
+                if (step > from && pass.step_barriers) glMemoryBarrier(pass.step_barriers);
                 default_state();
                 PassContext context(*this, pass, step);
                 node.pass->execute(context);
@@ -79,16 +108,46 @@ void Graph::run_pass(const PlanPass& pass) {
     } else {
         fill_failed(pass);
     }
-    times.timer->end();
+    timer->end();
     take_timings(times);
     if (check_nan) look_for_nan(pass);
 }
 
 void Graph::take_timings(Times& times) {
-    while (auto ms = times.timer->take()) {
-        times.history.push_back(*ms);
+    for (Times::Part& part : times.parts) {
+        if (!part.timer) continue;
+        while (auto ms = part.timer->take())
+            part.ready.push_back(*ms);
+    }
+    auto has_all = [&] {
+        return !times.parts.empty() &&
+               std::all_of(times.parts.begin(), times.parts.end(), [](auto& part) { return !part.ready.empty(); });
+    };
+    while (has_all()) {
+        double sum = 0;
+        for (Times::Part& part : times.parts) {
+            sum += part.ready.front();
+            part.ready.pop_front();
+        }
+        times.history.push_back(sum);
         if (times.history.size() > k_timing_history) times.history.pop_front();
     }
+}
+
+void Graph::ask_whether_outgrown() {
+    for (const PlanPass& pass : plan_.passes) {
+        std::vector<int64_t> counted;
+        for (const CounterValue& counter : counters_.newest())
+            if (counter.pass == pass.id) counted.push_back(counter.value);
+        if (counted.empty() || !model_->nodes()[size_t(pass.node)]->pass->outgrown(counted)) continue;
+        dirty_ = true;
+        outgrown_ = true;
+    }
+}
+
+bool Graph::outgrown() {
+    if (counters_.finish()) ask_whether_outgrown();
+    return std::exchange(outgrown_, false);
 }
 
 void Graph::forget_timings() {

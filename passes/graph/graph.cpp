@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace bounce {
 
@@ -43,6 +44,8 @@ static bool same_needs(const SceneFacts& a, const SceneFacts& b) {
 void Graph::prepare(const SceneFacts& facts, glm::ivec2 size) {
     if (!dirty_ && planned_ && plan_.size == size && same_needs(facts, planned_facts_)) return;
     dirty_ = false;
+    // What was counted with too little room is void: it would make the pass grow once more.
+    if (std::exchange(outgrown_, false)) counters_.drop();
     try {
         plan_again(facts, size);
         plan_problem_.clear();

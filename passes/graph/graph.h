@@ -49,6 +49,10 @@ class Graph {
     /// One frame. prepare() must have run.
     void execute(const FrameInputs& inputs);
 
+    /// Waits for what the passes counted in this frame. True when one of them had no room for something: the frame is
+    /// to be prepared and executed again, with more (until it fits).
+    bool outgrown();
+
     /// Looks at the watched files; reloads what changed, keeping the last good graph. Returns true when something
     /// changed.
     bool poll_files();
@@ -87,7 +91,11 @@ class Graph {
   private:
     friend class PassContext;
     struct Times {
-        std::unique_ptr<GpuTimer> timer;
+        struct Part {
+            std::unique_ptr<GpuTimer> timer;
+            std::deque<double> ready;
+        };
+        std::vector<Part> parts; ///< one, or one a step of a loop; a frame's time is their sum
         std::deque<double> history;
     };
 
@@ -103,7 +111,9 @@ class Graph {
     std::vector<std::string> check_interface(const PassNode& node, const PlanPass& pass,
                                              const ProgramInterface& interface) const;
     void take_timings(Times& times);
-    void run_pass(const PlanPass& pass);
+    void run_loop(size_t first, size_t last);
+    void run_pass(const PlanPass& pass, int from, int to);
+    void ask_whether_outgrown();
     void fill_failed(const PlanPass& pass);
     void look_for_nan(const PlanPass& pass);
     /// What the consumers of a declined pass are given: `value` at every texel.
@@ -115,6 +125,7 @@ class Graph {
     bool planned_ = false;
     bool dirty_ = true;
     bool history_valid_ = false;
+    bool outgrown_ = false; ///< a pass wants more room than this plan gives
     TimerMode timer_mode_;
     Allocations allocations_;
     Counters counters_;

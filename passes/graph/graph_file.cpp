@@ -208,6 +208,8 @@ Transport read_transport(const json& value, ErrorList& errors) {
         }
         if (!texts) reader.error("'parts' is a list of out.* names");
     }
+    transport.occlusion_distance = reader.text("occlusion_distance");
+    transport.occlusion_falloff = reader.text("occlusion_falloff");
     return transport;
 }
 
@@ -248,6 +250,7 @@ RepeatEntry read_repeat(const json& value, ObjectReader& node, ErrorList& errors
     repeat.of = reader.text("of");
     repeat.count = reader.expression("count", "1");
     repeat.from = reader.expression("from", "0");
+    repeat.loop = reader.text("loop");
     if ((repeat.over == "mips" || repeat.over == "layers") && repeat.of.empty()) {
         reader.error("'of' is missing: the resource whose " + repeat.over + " are meant");
     }

@@ -2,7 +2,8 @@
 // A graph file (assets/graphs/*.json): an ordered list of passes with what differs from their defaults.
 //
 //   { "version": 1, "about": "…",
-//     "transport": {"bounces": 0, "diffuse_only": false, "parts": ["out.direct", "out.emission"]},
+//     "transport": {"bounces": 0, "diffuse_only": false, "parts": ["out.direct", "out.emission"],
+//                   "occlusion_distance": "ao.d_max", "occlusion_falloff": "ao.falloff"},
 //     "parameters": { "scale": {"default": 0.5, "range": [0.1, 1], "unit": "", "help": "…"} },
 //     "resources":  { "blur.half": {"kind": "texture_2d", "format": "rgba16f", "size": ["width*graph.scale",
 //     "height*graph.scale"],
@@ -10,8 +11,9 @@
 //                     "list.nodes": {"kind": "buffer", "count": "width*height*8", "stride": 16} },
 //     "passes": [ { "id": "blur", "type": "compute", "shader": "blur.comp", "params": {"radius": 3},
 //                   "bind": {"blur.source": "out.direct", "blur.target": {"resource": "blur.half", "mip":
-//                   "iteration"}}, "dispatch": "blur.half", "repeat": {"over": "mips", "of": "blur.half", "from": 1},
-//                   "params_of": "other", "enabled": true, "needs": "emissive_materials + environment" } ] }
+//                   "iteration"}}, "dispatch": "blur.half", "repeat": {"over": "mips", "of": "blur.half", "from": 1,
+//                   "loop": "name"}, "params_of": "other", "enabled": true, "needs": "emissive_materials + environment"
+//                   } ] }
 
 #include "core/parameters.h"
 #include "graph/resource.h"
@@ -37,6 +39,7 @@ struct RepeatEntry {
     std::string of;   ///< resource for mips and layers
     std::string count = "1";
     std::string from = "0";
+    std::string loop; ///< passes in a row that name the same one take their steps together
 };
 
 struct DispatchEntry {
@@ -62,6 +65,9 @@ struct Transport {
     int bounces = -1; ///< scattering orders after direct; −1 = all
     bool diffuse_only = false;
     std::vector<std::string> parts{"out.radiance"}; ///< the parts that it makes; their sum is what is compared
+    /// Parameters ("id.name") that say what out.ambient_occlusion_dmax means: d_max as a share of the scene's diagonal,
+    /// and a choice of k_occlusion_falloffs; "" = the reference's defaults.
+    std::string occlusion_distance, occlusion_falloff;
 };
 
 struct GraphFile {

@@ -67,6 +67,13 @@ GraphModel::GraphModel(GraphFile file) : file_(std::move(file)) {
         apply_file_values(*node, errors);
         nodes_.push_back(std::move(node));
     }
+    for (const std::string& name : {file_.transport.occlusion_distance, file_.transport.occlusion_falloff}) {
+        try {
+            if (!name.empty()) parameter(name);
+        } catch (const Error& error) {
+            errors.add(std::string("transport: ") + error.what());
+        }
+    }
     if (errors.empty()) return;
     make_plan(*this, usual_scene(), {1280, 720}, errors);
     errors.throw_if_any(file_.path.string());
@@ -175,6 +182,10 @@ Parameter& GraphModel::parameter(const std::string& name) {
         throw Error(fmt::format("there is no parameter '{}' in graph '{}'{}", name, file_.name,
                                 did_you_mean(name, parameter_names())));
     return *found;
+}
+
+const Parameter& GraphModel::parameter(const std::string& name) const {
+    return const_cast<GraphModel*>(this)->parameter(name);
 }
 
 const Parameter* GraphModel::parameter_of(const PassNode& node, const std::string& name) const {

@@ -35,6 +35,7 @@ class GraphModel {
     /// "id.parameter" (graph.parameter for the graph's own) from text. Throws Error naming the nearest.
     void set(const std::string& name, const std::string& text, ParameterOrigin origin);
     Parameter& parameter(const std::string& name);
+    const Parameter& parameter(const std::string& name) const;
     /// What a uniform of the pass takes its value from: its own parameter, or that of the pass that `params_of` names.
     const Parameter* parameter_of(const PassNode& node, const std::string& name) const;
     /// The value of a scalar parameter ("id.name", "graph.name" or the bare name of one of the graph's own).

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace bounce {
@@ -82,14 +83,20 @@ class Declaration {
         counters_.push_back({label, buffer, element, overflow});
     }
     const std::vector<CounterDeclaration>& counters() const { return counters_; }
-    /// Execute is called for iteration = from, …, to − 1, with barriers between.
-    void repeat(int from, int to) { repeat_from = from, repeat_to = to; }
+    /// Execute is called for iteration = from, …, to − 1, with barriers between. Passes that follow one another and
+    /// name the same `loop_name` go through their steps together: step 0 of each, then step 1 of each, … (a structure
+    /// that is built and used in batches).
+    void repeat(int from, int to, const std::string& loop_name = {}) {
+        repeat_from = from, repeat_to = to;
+        loop = loop_name;
+    }
 
     /// The programs that this pass runs with these parameters; the others are not built.
     const std::vector<std::string>& programs() const { return programs_; }
     const std::vector<SlotUse>& slot_uses() const { return uses_; }
     const std::vector<ResourceDeclaration>& resources() const { return resources_; }
     int repeat_from = 0, repeat_to = 1;
+    std::string loop;
 
   private:
     std::function<std::vector<ShaderSlot>(const std::string&)> slots_of_;
@@ -105,8 +112,14 @@ class Pass {
     virtual void describe(PassDescription& description) = 0;
     /// A reason why this scene does not need the pass ("no emissive material"); empty when it does.
     virtual std::string unneeded(const SceneFacts&) const { return {}; }
+    /// What readers get instead of what this pass makes when it does not run: {made, instead}.
+    virtual std::vector<std::pair<std::string, std::string>> stand_ins() const { return {}; }
     virtual void declare(Declaration& declaration) = 0;
     virtual void execute(PassContext& context) = 0;
+    /// Told what the pass counted in a frame, in the order of its `counts` (numbers only). True: something had no room,
+    /// and the pass wants to be planned again, with more (a window shows that in the next frame, headless runs render
+    /// the frame again).
+    virtual bool outgrown(const std::vector<int64_t>&) { return false; }
     /// Told when history is gone (camera cut, resize, reload); what the pass kept across frames is void.
     virtual void reset_history() {}
 };

@@ -28,6 +28,7 @@ class Planner {
         for (const auto& node : model_.nodes())
             declare(*node);
         check_sources(passes_, resources_, incomplete_, errors_);
+        stand_in();
         decline();
         std::vector<int> order = order_passes(passes_, resources_, errors_);
         for (const ResourceDeclaration& resource : resources_)
@@ -82,7 +83,9 @@ class Planner {
             pass.declined = node.enabled ? node.pass->unneeded(facts_) : "switched off";
             if (pass.declined.empty() && !node.entry.needs.empty() &&
                 evaluate(node.entry.needs, [&](auto& n) { return fact(n); }) == 0) {
-                pass.declined = "the scene has no " + node.entry.needs;
+                bool asks_parameters = node.entry.needs.find('.') != std::string::npos;
+                pass.declined =
+                    asks_parameters ? "it needs " + node.entry.needs : "the scene has no " + node.entry.needs;
             }
         } catch (const Error& error) {
             tell(pass, "pass '" + node.id() + "': " + error.what());
@@ -100,6 +103,7 @@ class Planner {
         pass.counters = declaration.counters();
         pass.repeat_from = declaration.repeat_from;
         pass.repeat_to = declaration.repeat_to;
+        pass.loop = declaration.loop;
         for (SlotUse& use : pass.uses) {
             if (use.where.empty()) use.where = "pass '" + node.id() + "'";
             pass.targets.push_back(target_of(node, use.slot));
@@ -204,6 +208,20 @@ class Planner {
         return had_readers;
     }
 
+    /// Readers of what a pass that does not run would have made get what it names instead.
+    void stand_in() {
+        for (const Declared& gone : passes_) {
+            if (gone.declined.empty()) continue;
+            for (const auto& [made, instead] : gone.node->pass->stand_ins()) {
+                std::string from = target_of(*gone.node, made).resource, to = target_of(*gone.node, instead).resource;
+                for (Declared& pass : passes_) {
+                    for (size_t i = 0; i < pass.uses.size(); ++i)
+                        if (!pass.uses[i].writes && pass.targets[i].resource == from) pass.targets[i].resource = to;
+                }
+            }
+        }
+    }
+
     void decline() {
         for (bool changed = true; changed;) {
             changed = false;
@@ -284,6 +302,7 @@ class Planner {
     void resolve_repeat(Declared& pass) {
         const RepeatEntry& repeat = pass.node->entry.repeat;
         if (repeat.over.empty()) return;
+        pass.loop = repeat.loop;
         NameLookup lookup = [&](const std::string& n) { return number(n); };
         doubtful_ = false;
         try {
@@ -330,6 +349,7 @@ class Planner {
             pass.programs = declared.programs;
             pass.repeat_from = declared.repeat_from;
             pass.repeat_to = declared.repeat_to;
+            pass.loop = declared.loop;
             for (size_t i = 0; i < declared.uses.size(); ++i) {
                 PlanSlot slot{declared.uses[i],    -1,        is_builtin(declared.uses[i].slot), glm::vec4(0),
                               declared.targets[i], plan_.size};

@@ -46,6 +46,7 @@ struct PlanPass {
     std::vector<std::string> programs; ///< that it runs
     std::vector<PlanSlot> slots;
     int repeat_from = 0, repeat_to = 1;
+    std::string loop;             ///< passes in a row of the same one take their steps together; empty: none
     GLbitfield barriers = 0;      ///< before the first step
     GLbitfield step_barriers = 0; ///< between steps
     std::vector<PlanCounter> counters;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 
 namespace bounce {
 
@@ -29,9 +30,31 @@ class PlanChecker {
                 std::all_of(node.programs.begin(), node.programs.end(), [](auto& p) { return p->errors().empty(); });
             if (node.entry.type == "compute" && readable) check_dispatch(node.entry.dispatch, pass);
         }
+        check_loops();
     }
 
   private:
+    /// Passes of a loop follow one another and have the same steps.
+    void check_loops() {
+        std::map<std::string, size_t> last; // loop → its last pass so far
+        for (size_t i = 0; i < plan_.passes.size(); ++i) {
+            const PlanPass& pass = plan_.passes[i];
+            if (pass.loop.empty()) continue;
+            auto known = last.find(pass.loop);
+            if (known != last.end()) {
+                const PlanPass& before = plan_.passes[known->second];
+                if (known->second + 1 != i)
+                    error(pass, fmt::format(" is of the loop '{}', as pass '{}' is, but others run between them",
+                                            pass.loop, before.id));
+                else if (pass.repeat_from != before.repeat_from || pass.repeat_to != before.repeat_to)
+                    error(pass, fmt::format(" takes the steps {} … {} of the loop '{}', and pass '{}' {} … {}",
+                                            pass.repeat_from, pass.repeat_to - 1, pass.loop, before.id,
+                                            before.repeat_from, before.repeat_to - 1));
+            }
+            last[pass.loop] = i;
+        }
+    }
+
     void error(const PlanPass& pass, const std::string& message) {
         std::string text = "pass '" + pass.id + "'" + message;
         const auto& known = errors_.messages();

@@ -57,7 +57,13 @@ std::string plan_text(const GraphModel& model, const Plan& plan) {
             out += fmt::format(" ({}{})", node.entry.type, node.entry.shader.empty() ? "" : " " + node.entry.shader);
         if (pass.repeat_to - pass.repeat_from != 1)
             out += fmt::format(", steps {} … {}", pass.repeat_from, pass.repeat_to - 1);
+        if (!pass.loop.empty()) out += fmt::format(", in the loop '{}'", pass.loop);
         out += "\n";
+        if (pass.programs.size() > 1) {
+            out += "      runs    ";
+            for (const std::string& program : pass.programs)
+                out += program + (program == pass.programs.back() ? "\n" : ", ");
+        }
         if (pass.barriers) out += "      barrier " + barrier_text(pass.barriers) + "\n";
         if (pass.step_barriers && pass.repeat_to - pass.repeat_from > 1)
             out += "      between steps " + barrier_text(pass.step_barriers) + "\n";

@@ -76,6 +76,7 @@ std::string content_key(const Shot& shot, const ShotState& state, const Referenc
     hash.add_value(settings.bounces);
     hash.add_value(int(settings.diffuse_only || shot.diffuse_only));
     hash.add_value(settings.occlusion_distance);
+    if (settings.occlusion_falloff != OcclusionFalloff::none) hash.add_value(int(settings.occlusion_falloff));
     hash.add_value(settings.roulette_depth);
     hash.add_value(int(settings.stratified));
     hash.add_value(settings.seed);

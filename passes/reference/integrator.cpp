@@ -67,6 +67,12 @@ TraceScene::TraceScene(const Shot& shot, const ShotState& state, const Reference
       diffuse_only(s.diffuse_only || shot.diffuse_only),
       occlusion_distance(s.occlusion_distance * geometry.bounds().diagonal()) {}
 
+float TraceScene::near_visibility(float distance) const {
+    const float share = distance / occlusion_distance;
+    if (share >= 1) return 1;
+    return settings.occlusion_falloff == OcclusionFalloff::quadratic ? share * share : 0;
+}
+
 bool TraceScene::anything_to_meet() const {
     return environment.present() || !emitters.empty() || lights.any_soft();
 }
@@ -304,7 +310,7 @@ void Integrator::begin(int x, int y, PixelSampler& sampler, PixelSample& out, st
         const Hit hit = trace(origin, l);
         if (later_orders) scene_.geometry.prefetch_indices(hit);
         open = hit.valid() ? 0.0f : 1.0f;
-        open_near = hit.valid() && hit.distance < scene_.occlusion_distance ? 0.0f : 1.0f;
+        open_near = hit.valid() ? scene_.near_visibility(hit.distance) : 1.0f;
         meet_lights(origin, l, hit, nl / k_pi, k_all_lights_at_camera, [&](Kind kind, const glm::vec3& met) {
             add_irradiance(kind, k_pi * met);
             add_first(kind, lobes.diffuse * (k_pi * met));

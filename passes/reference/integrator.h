@@ -32,6 +32,9 @@ struct TraceScene {
     bool diffuse_only;
     float occlusion_distance; ///< metres
 
+    /// The visibility that out.ambient_occlusion_dmax takes of an occluder at `distance`.
+    float near_visibility(float distance) const;
+
     /// Whether a ray drawn from a lobe can meet light by itself.
     bool anything_to_meet() const;
 };

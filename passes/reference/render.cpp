@@ -249,6 +249,7 @@ std::string ReferenceRender::metadata() const {
     json["bounces"] = settings_.bounces;
     json["diffuse_only"] = scene_->diffuse_only;
     json["occlusion_distance"] = scene_->occlusion_distance;
+    json["occlusion_falloff"] = k_occlusion_falloffs[size_t(settings_.occlusion_falloff)];
     json["roulette_depth"] = settings_.roulette_depth;
     json["stratified"] = settings_.stratified;
     json["seed"] = settings_.seed;

@@ -12,11 +12,17 @@ constexpr float k_roulette_throughput = 0.1f;
 /// From here on every bounce has a chance of being the last, so that paths end where nothing absorbs.
 constexpr int k_long_path = 64;
 
+/// How an occluder at distance d < d_max counts in out.ambient_occlusion_dmax: fully (the obscurance of the LDM paper's
+/// d_max), or by W = 1 − (d/d_max)² (HBAO's attenuation). Beyond d_max none does.
+enum class OcclusionFalloff { none, quadratic };
+constexpr std::array<std::string_view, 2> k_occlusion_falloffs{"none", "quadratic"};
+
 struct ReferenceSettings {
     int bounces = k_unlimited_bounces; ///< scattering orders after the first; 0 = the first only, −1 = all
     bool diffuse_only =
         false; ///< every material is Lambert with ρ = base colour·(1 − metallic); a shot's own flag does the same
     float occlusion_distance = 0.1f; ///< d_max of out.ambient_occlusion_dmax, as a share of the scene's diagonal
+    OcclusionFalloff occlusion_falloff = OcclusionFalloff::none;
     /// Paths end by Russian roulette (unbiased) only after this many bounces, and only when their throughput has fallen
     /// below k_roulette_throughput, to which the survivors are raised again.
     int roulette_depth = 3;

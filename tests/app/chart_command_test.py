@@ -82,6 +82,42 @@ class Reports(Chart):
         self.assertTrue((self.out / "x.exr").exists())
 
 
+class Occlusion(Chart):
+    def measure(self, output, *more):
+        self.assert_good(self.run_program("chart", self.shot, "--graphs", "hbao", "--sweep", self.sweep, "--size", "32x24",
+                                          "--warmup", "0", "--frames", "1", "--spp", "16", *more, "-o", output))
+        return self.rows(output)
+
+    def test_the_reference_takes_d_max_and_falloff_from_the_graph(self):
+        self.sweep.write_text(json.dumps({"lists": {"hbao_dmax.falloff": ["none", "quadratic"],
+                                                    "hbao_dmax.d_max": [0.05, 0.2, 0.8]}}))
+        rows = self.measure("c", "--against", "d_max")
+        truth = [float(row["reference_mean"]) for row in rows]
+        for hard, fading in zip(truth[:3], truth[3:]):
+            self.assertGreater(fading, hard + 0.001, "occluders that fade leave more open")
+        for falloff in (truth[:3], truth[3:]):
+            self.assertEqual(falloff, sorted(falloff, reverse=True))
+            self.assertGreater(falloff[0], falloff[2] + 0.1, "more occluders within a larger d_max")
+        for row in rows:
+            self.assertEqual(row["parts"], "out.ambient_occlusion_dmax")
+            mean, reference, rmse = (float(row[name]) for name in ("mean", "reference_mean", "rmse"))
+            self.assertAlmostEqual(mean / reference - 1, float(row["bias"]), places=4)
+            self.assertAlmostEqual(rmse / reference, float(row["relative_rmse"]), places=4)
+            self.assertLessEqual(float(row["rmse_without_noise"]), rmse)
+            self.assertEqual(row["full_bias"], row["bias"], "occlusion has no bounces")
+        drawn = (self.out / "c/chart.svg").read_text()
+        self.assertIn("AO units", drawn)
+        self.assertIn(">d_max</text>", drawn)
+        self.assertNotIn("GPU time of a frame", drawn)
+
+    def test_another_part_may_be_compared(self):
+        self.sweep.write_text(json.dumps({"lists": {"hbao.steps": [8]}}))
+        self.measure("c")
+        rows = self.measure("c", "--resource", "out.ambient_occlusion")
+        self.assertEqual([row["parts"] for row in rows], ["out.ambient_occlusion"], "a point of its own")
+        self.assertEqual(len(self.point_files("c")), 2)
+
+
 class Parts(Chart):
     def test_an_interrupted_chart_goes_on(self):
         process = self.start_program(*self.arguments("c"))

@@ -31,6 +31,14 @@ class Compare(ProgramTest):
         self.assertAlmostEqual(other["bias"], 0.1, places=6)
         self.assertAlmostEqual(other["relative_rmse"], 0.1, places=6)
 
+    def test_occlusion_is_told_in_its_own_units(self):
+        a = self.write("a.exr", value=0.3, part="out.ambient_occlusion")
+        b = self.write("b.exr", value=0.25, part="out.ambient_occlusion")
+        figures = json.loads(self.run_program("compare", a, b, "--json").stdout)["parts"]["out.ambient_occlusion"]
+        for name in ("mean_difference", "rmse", "rmse_denoised"):
+            self.assertAlmostEqual(figures[name], 0.05, places=6)
+        self.assertIn("AO units: bias +0.0500, RMSE 0.0500", self.run_program("compare", a, b).stdout)
+
     def test_a_value_that_is_not_finite(self):
         good = self.write("good.exr")
         for name, value in (("nan.exr", NAN), ("inf.exr", float("inf"))):

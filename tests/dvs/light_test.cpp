@@ -157,6 +157,26 @@ TEST_F(VoxelLight, DirectionalMipsAreFrontToBackThenMeans) {
     }
 }
 
+/// Isotropic: every direction is the mean of the eight.
+TEST_F(VoxelLight, MeanMipsKnowNoDirection) {
+    SceneRunner run(tilted(), {directional_light({-0.3f, -0.8f, -0.5f}, {3, 2, 1})},
+                    graph_file(graph_of("", R"("mip_rule":"mean")")));
+    run.frame();
+    Volume base = volume(run, "dvs.radiance"), first = volume(run, "dvs.directional");
+    int held = 0;
+    for (int i = 0; i < 16 * 16 * 16; ++i) {
+        glm::ivec3 p(i % 16, i / 16 % 16, i / 256);
+        glm::dvec4 mean(0);
+        for (int k = 0; k < 8; ++k)
+            mean += 0.125 * base.at(2 * p + glm::ivec3(k & 1, (k >> 1) & 1, k >> 2));
+        held += mean.a > 0;
+        for (int leaf = 0; leaf < 6; ++leaf)
+            for (int c = 0; c < 4; ++c)
+                ASSERT_NEAR(first.at(p + 16 * glm::ivec3(leaf & 1, leaf / 2, 0))[c], mean[c], 0.001 + 0.002 * mean[c]);
+    }
+    EXPECT_GT(held, 300);
+}
+
 /// Two facing squares; the lower one is lit from above, through the upper one. The centre of the upper one sees the
 /// lower one with E = π·L·F, F the form factor from a point to four rectangles of w × w at distance h, with x = w/h:
 ///   F = (4/π)·x/√(1 + x²)·atan(x/√(1 + x²)).

@@ -51,6 +51,18 @@ TEST_F(GraphFileErrors, NoVersionNoPassesTwiceTheSameId) {
         AllOf(HasSubstr("two passes have the id 'x'"), HasSubstr("cannot have the id 'graph'")));
 }
 
+TEST_F(GraphFileErrors, TheTransportNamesParametersThatAreThere) {
+    shader("x.comp", "uniform float d_max = 0.1; //! [0, 2] how far");
+    auto model = [&](const std::string& name) {
+        return GraphModel(
+            load_graph_file(graph_file("\"transport\": {\"occlusion_distance\": \"" + name +
+                                       R"("}, "passes": [{"id":"a","type":"compute","shader":"x.comp"}])")));
+    };
+    EXPECT_EQ(model("a.d_max").file().transport.occlusion_distance, "a.d_max");
+    EXPECT_THAT(error_of([&] { model("a.dmax"); }),
+                AllOf(HasSubstr("transport: "), HasSubstr("did you mean 'a.d_max'")));
+}
+
 TEST_F(GraphFileErrors, ParametersAreSharedWithAnEarlierPassOnly) {
     shader("x.comp", "uniform float width = 1.0; //! [0, 2] how wide");
     auto model = [&](const std::string& passes) {

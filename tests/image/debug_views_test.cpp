@@ -1,11 +1,11 @@
 // The debug views show what is there: cubes against a search through all voxels, slices and mosaics against the texels,
 // the recorded cones against the gather.
 #include "app/session.h"
+#include "image/cubes_oracle.h"
 #include "lrsm/cone_record.h"
 #include "support/gpu_context.h"
 #include "support/temp_folder.h"
 #include "support/tiny_scene.h"
-#include "voxel/voxel_grid.h"
 
 #include <cstring>
 #include <gmock/gmock.h>
@@ -68,11 +68,9 @@ float luminance_free_error(glm::vec3 a, glm::vec3 b) {
     return std::max({d.x, d.y, d.z});
 }
 
-/// What the cube view makes of α on a face.
-glm::vec3 cube_colour(float alpha, int axis, bool from_above) {
-    glm::vec3 colour(2 * alpha - 0.6f, 1.4f - 2.4f * std::abs(alpha - 0.5f), 1.2f - 2 * alpha);
-    float light = axis == 1 ? (from_above ? 1.0f : 0.2f) : axis == 0 ? 0.6f : 0.4f;
-    return light * glm::clamp(colour, 0.1f, 1.0f);
+/// What the cube view makes of α.
+glm::vec3 heat_colour(float alpha) {
+    return glm::clamp(glm::vec3(2 * alpha - 0.6f, 1.4f - 2.4f * std::abs(alpha - 0.5f), 1.2f - 2 * alpha), 0.1f, 1.0f);
 }
 
 } // namespace
@@ -108,40 +106,15 @@ TEST_F(DebugViews, CubesAreTheNearestVoxels) {
         std::vector<float> shown = texture("debug.voxels").read(),
                            voxels = texture("voxels.occlusion").read(wanted.mip);
         int side = 32 >> wanted.mip;
-        float metres = grid.side / float(side);
-        std::vector<std::pair<glm::ivec3, float>> held;
+        std::vector<DrawnCube> cubes;
         for (int i = 0; i < side * side * side; ++i) {
             glm::ivec3 v(i % side, i / side % side, i / side / side);
-            if (float a = alpha(voxels, side, 6, v, wanted.leaf); a > 0.001f) held.emplace_back(v, a);
+            if (float a = alpha(voxels, side, 6, v, wanted.leaf); a > 0.001f) cubes.push_back({v, heat_colour(a)});
         }
-        ASSERT_GT(held.size(), 10u);
-        glm::ivec2 size = session->size();
-        int hits = 0, wrong = 0;
-        for (int i = 0; i < size.x * size.y; ++i) {
-            glm::vec2 plane = (glm::vec2(i % size.x, i / size.x) + 0.5f) / glm::vec2(size) * 2.0f - 1.0f;
-            glm::vec3 ray = glm::normalize(
-                c.camera_forward + c.tan_half_vfov * (plane.x * c.aspect * c.camera_right - plane.y * c.camera_up));
-            float nearest = 1e30f, found = 0;
-            int axis = 0;
-            for (const auto& [v, a] : held) {
-                glm::vec3 t0 = (grid.origin + metres * glm::vec3(v) - c.camera_position) / ray;
-                glm::vec3 t1 = (grid.origin + metres * glm::vec3(v + 1) - c.camera_position) / ray;
-                glm::vec3 in = glm::min(t0, t1), out = glm::max(t0, t1);
-                float from = std::max({in.x, in.y, in.z}), to = std::min({out.x, out.y, out.z});
-                if (from > to || from <= 0 || from >= nearest) continue;
-                nearest = from, found = a;
-                axis = from == in.x ? 0 : from == in.y ? 1 : 2;
-            }
-            bool hit = nearest < 1e30f;
-            hits += hit;
-            float told = shown[size_t(4 * i + 3)];
-            bool same = hit ? std::abs(told - nearest) < 2e-3f * nearest : told == 0;
-            if (same && hit)
-                same = luminance_free_error(rgb(shown, size_t(i)), cube_colour(found, axis, ray.y < 0)) < 2e-3f;
-            wrong += !same;
-        }
-        EXPECT_GT(hits, 300) << "mip " << wanted.mip;
-        EXPECT_LE(wrong, 4) << "mip " << wanted.mip << ", leaf " << wanted.leaf_name; // rays along an edge
+        ASSERT_GT(cubes.size(), 10u);
+        CubesVerdict verdict = judge_cubes(shown, session->size(), c, grid, side, cubes);
+        EXPECT_GT(verdict.hits, 300) << "mip " << wanted.mip;
+        EXPECT_LE(verdict.wrong, 4) << "mip " << wanted.mip << ", leaf " << wanted.leaf_name; // rays along an edge
     }
 }
 

@@ -107,6 +107,7 @@ TEST_F(Passes, EveryGraphRendersTheDefaultShot) {
         SessionOptions options;
         options.graph = graph;
         options.size = glm::ivec2(32, 18);
+        if (graph.starts_with("ldm")) options.sets = {{"ldm.maps", "8"}, {"ldm.resolution", "32"}}; // fast enough
         Session session(options);
         session.render();
         for (const GraphProblem& problem : session.graph().problems())

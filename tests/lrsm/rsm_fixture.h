@@ -2,7 +2,7 @@
 // Reflective shadow maps and layers as the graph left them, and scenes to look at.
 
 #include "lrsm/partition.h"
-#include "support/scene_runner.h"
+#include "support/made_scenes.h"
 #include "surface/shadow_views.h"
 
 #include <cmath>
@@ -18,15 +18,6 @@ inline constexpr const char* k_mips_pass = R"({"id":"lrsm_mips","type":"compute"
             "lrsm.coarser_depth":{"resource":"lrsm.depth","mip":"iteration"}},
     "repeat":{"over":"mips","of":"lrsm.radiance","from":1}})";
 
-/// Floor, a floating slab, a block on the floor, a tilted board.
-inline Scene blocks() {
-    return MadeScene()
-        .quad({-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, {0.8f, 0.4f, 0.2f})
-        .box({-0.9f, 0.7f, -0.6f}, {-0.2f, 0.75f, 0.5f}, {0.2f, 0.6f, 0.4f})
-        .box({0.3f, 0, -0.9f}, {0.8f, 0.5f, -0.4f}, {0.3f, 0.3f, 0.7f})
-        .quad({-1.2f, 0.1f, 1.2f}, {0.1f, 0.2f, 1.4f}, {0.1f, 0.9f, 0.9f}, {-1.2f, 0.8f, 0.7f}, {0.7f, 0.7f, 0.1f})
-        .scene;
-}
 /// One light of each kind: eight views.
 inline std::vector<Light> one_of_each() {
     return {spot_light({0.3f, 3, 0.2f}, {-0.1f, -1, 0.1f}, {9, 6, 3}, 20, 42),

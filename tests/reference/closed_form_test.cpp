@@ -197,6 +197,29 @@ TEST(ClosedForm, EnvironmentOverAPlaneWithAnOccluder) {
     }
 }
 
+// A wide roof at height h and d_max = R: a ray at θ meets it at h/cosθ, so that with k = h/R the share 1 − k² of the
+// cosine-weighted hemisphere meets it within R. Without falloff k² stays open; with W = 1 − (d/R)² it is
+// k² + ∫ 2cosθ·(k/cosθ)² d(cosθ) over cosθ > k = k²·(1 − 2·ln k).
+TEST(ClosedForm, OcclusionWithinDmaxUnderARoof) {
+    SceneMaker maker = floor_scene(0.5f);
+    maker.quad({-30, 1, -30}, {0, 0, 60}, {60, 0, 0}, maker.material(glm::vec3(0.5f)));
+    maker.camera({0, 0.9f, 0}, {0, 0, 0}, 2, {0, 0, -1});
+    const double diagonal = std::sqrt(100.0 * 100 + 100 * 100 + 1);
+    for (const double k : {0.25, 0.5, 0.8}) {
+        ReferenceSettings settings;
+        settings.bounces = 0;
+        settings.occlusion_distance = float(1 / (k * diagonal));
+        ReferenceRender hard(maker.shot, settings);
+        hard.render_to(256);
+        EXPECT_NEAR(mean(hard.part("out.ambient_occlusion_dmax")), k * k, 2e-3);
+        settings.occlusion_falloff = OcclusionFalloff::quadratic;
+        ReferenceRender fading(maker.shot, settings);
+        fading.render_to(256);
+        EXPECT_NEAR(mean(fading.part("out.ambient_occlusion_dmax")), k * k * (1 - 2 * std::log(k)), 2e-3);
+        EXPECT_NE(hard.key(), fading.key()) << "one must not be taken for the other in the cache";
+    }
+}
+
 // A map that is bright in its upper quarter only: the part of the hemisphere within 45° of the zenith gives E =
 // π·L·sin²45°.
 TEST(ClosedForm, EnvironmentMapIsTheRightWayUp) {

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/image.h"
 #include "scene/shot.h"
+#include "support/shared_scene.h"
 
 #include <cstring>
 #include <filesystem>
@@ -132,12 +133,6 @@ inline std::string load_error(const std::string& text, const std::string& name =
     }
     ADD_FAILURE() << "loaded, but an Error was expected";
     return "";
-}
-
-/// The place of `name` in the test scenes beside the source tree, or an empty path when they are not there.
-inline fs::path shared_scene(const std::string& name) {
-    fs::path path = fs::path(BOUNCE_TESTS_DIR) / ".." / ".." / "shared" / "scenes" / name;
-    return fs::exists(path) ? path : fs::path();
 }
 
 } // namespace bounce::testing

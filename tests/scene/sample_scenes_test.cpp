@@ -119,6 +119,24 @@ TEST(Scenes, Sibenik) {
     }
 }
 
+TEST(Scenes, HairballIsAMillionTrianglesInFewDraws) {
+    Shot shot = load_shot("hairball");
+    SceneFacts facts = shot_facts(shot);
+    EXPECT_GE(facts.triangles, 1'000'000u);
+    EXPECT_LE(facts.instances, 300u);
+    EXPECT_EQ(facts.spot_lights, 1u);
+    EXPECT_TRUE(shot.scene.notes.empty());
+    EXPECT_GE(facts.bounds.min.y, 0) << "the hair goes through the floor";
+    // Thin: the mean triangle is a millionth of the scene's size squared and less.
+    double area = 0;
+    size_t count = 0;
+    for (size_t i = 6; i + 2 < shot.scene.indices.size(); i += 3, ++count) { // after the floor
+        auto corner = [&](size_t k) { return shot.scene.vertices[shot.scene.indices[i + k]].position; };
+        area += 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+    }
+    EXPECT_LT(area / double(count), 1e-3);
+}
+
 TEST(Scenes, DefaultViews) {
     SCENE_OR_SKIP(root, "cornell-mcguire");
     auto kind = [](const char* name) { return default_view(load_gltf(shared_scene(name)), 16.0f / 9).kind; };

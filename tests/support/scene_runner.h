@@ -114,6 +114,8 @@ class SceneRunner {
     SceneFacts facts;
     Camera camera;
     glm::ivec2 size;
+    int frame_index = 0;
+    int diffuse_only = 1;
 
     void set_lights(std::vector<Light> lit_by) {
         state.lights = std::move(lit_by);
@@ -122,6 +124,12 @@ class SceneRunner {
             ++(light.type == LightType::point  ? facts.point_lights
                : light.type == LightType::spot ? facts.spot_lights
                                                : facts.directional_lights);
+    }
+    /// A constant environment; W/(sr·m²).
+    void set_environment(glm::vec3 radiance) {
+        environment_ = radiance;
+        facts.environment = radiance != glm::vec3(0);
+        graph.touch();
     }
     void set(const std::string& name, const std::string& text) {
         graph.model().set(name, text, ParameterOrigin::command_line);
@@ -135,10 +143,14 @@ class SceneRunner {
         FrameConstants& c = inputs.constants;
         const Bounds& bounds = facts.bounds_over_animation;
         set_camera(c, camera, size, bounds.diagonal());
+        c.previous_view_projection = frame_index > 0 ? last_view_projection_ : c.view_projection;
+        last_view_projection_ = c.view_projection;
+        c.frame_index = frame_index++;
+        c.environment_radiance = environment_;
         c.scene_min = bounds.min, c.scene_max = bounds.max, c.scene_diagonal = bounds.diagonal();
         c.light_count = int(state.lights.size());
         c.shadow_view_count = gpu_scene_.shadow_view_count();
-        c.diffuse_only = 1;
+        c.diffuse_only = diffuse_only;
         graph.execute(inputs);
         for (const GraphProblem& problem : graph.problems())
             ADD_FAILURE() << problem.where << ": " << problem.error.text();
@@ -158,6 +170,8 @@ class SceneRunner {
 
   private:
     GpuScene gpu_scene_;
+    glm::vec3 environment_{0};
+    glm::mat4 last_view_projection_{1};
 
   public:
     Graph graph;

@@ -1,0 +1,25 @@
+// One fragment of a layered depth map: front and back faces alike, alpha-tested, into its texel's sorted list.
+#define SCENE_MATERIALS
+#include "lib/material_raster.glsl"
+#include "ldm/insert.glsl"
+#include "ldm/node.glsl"
+
+in Surface {
+    float depth;
+    vec4 uv;
+    vec4 colour;
+} surface;
+flat in uint surface_material;
+flat in int surface_slot;
+
+void main() {
+    Material material = materials[surface_material];
+    vec4 base = sample_base_colour(material, surface_uv(surface.uv), surface.colour);
+    vec2 slope = vec2(dFdx(surface.depth), dFdy(surface.depth));
+    float metallic = material.metallic *
+                     sample_slot(material_metallic_roughness, material.metallic_roughness_texture, surface_uv(surface.uv)).b;
+    if (gl_HelperInvocation) return; // they would loop over lists that they never change (llvmpipe does so for seconds)
+    if (alpha_rejects(material, base.a)) return;
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    insert_fragment(uint(ldm_head(surface_slot, texel)), pack_node(surface.depth, slope, base.rgb * (1.0 - metallic)));
+}

@@ -1,0 +1,169 @@
+// Layered depth maps (LDM, section 3 and 4): N orthographic views, each texel a list of all surfaces along the axis,
+// sorted while it is built. Built in batches that fit a memory limit; what uses them takes its steps in the same loop.
+#include "graph/context.h"
+#include "graph/prefix_sum.h"
+#include "ldm/directions.h"
+#include "ldm/views.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bounce {
+
+class LayeredDepthMapsPass : public Pass {
+  public:
+    void describe(PassDescription& description) override {
+        description.program("build", {"ldm/build.vert", "ldm/build.frag"});
+        description.program("build_by_compute", {"ldm/build.comp"});
+        for (const char* name : {"start_batch", "finish_batch", "list_lengths", "write_arrays"})
+            description.program(name, {std::string("ldm/") + name + ".comp"});
+        describe_prefix_sum(description);
+        for (const char* name : {"batch", "draw_count", "bands"})
+            description.constant(name);
+        ParameterSet& p = description.parameters;
+        p.add("maps", maps_, {1, 4096}, "", "N: axes, and so maps; each serves both of its directions");
+        p.add("resolution", resolution_, {4, 1024}, "texels", "width and height of each map");
+        p.add_choice("route", route_, {"raster", "compute"},
+                     "raster: all maps of a batch in one draw, as published; compute: triangles × maps without a "
+                     "rasterizer");
+        p.add_choice("storage", storage_, {"lists", "arrays"},
+                     "lists: linked, as published; arrays: the lists of a batch are rewritten one after the other once "
+                     "they are complete, without links");
+        p.add_choice(
+            "nodes", nodes_, {"depth", "plane", "surface"},
+            "what a fragment leaves: its depth (8 bytes with the link), also the slope of its plane (12), also "
+            "its albedo (16)");
+        p.add("tilted", tilted_, "axes are turned off the world's axes, along which walls are often built");
+        p.add("rotate", rotate_, "axes turn from frame to frame, for accumulation over frames");
+        p.add("memory", memory_, {1, 16384}, "MiB", "largest size of a batch's lists; more maps take more batches");
+        p.add("fragments", fragments_, {0.1, 1000}, "per texel",
+              "nodes that the first build of a batch has room for; it grows to what is asked for");
+    }
+
+    void declare(Declaration& d) override {
+        // What a batch takes: a head a texel, and its nodes with a reserve, since batches differ a little.
+        int64_t texels = int64_t(resolution_) * resolution_;
+        double density = std::max(double(fragments_), grown_);
+        double map_bytes = double(texels) * 4 * (1 + node_words() * density);
+        if (arrays()) map_bytes += double(texels) * 4 * (2 + (node_words() - 1) * density);
+        slots_ = int(std::clamp(memory_ * 1048576.0 / map_bytes, 1.0, double(maps_)));
+        batches_ = (maps_ + slots_ - 1) / slots_;
+        slots_ = (maps_ + batches_ - 1) / batches_;
+        capacity_ = std::max<int64_t>(int64_t(std::ceil(double(texels * slots_) * density)), 64);
+        d.creates_buffer("ldm.views", std::to_string(maps_), sizeof(LdmView)).overwritten = true;
+        d.creates_buffer("ldm.info", "1", sizeof(LdmInfo)).overwritten = true;
+        d.creates_buffer("ldm.lists", std::to_string(texels * slots_ + capacity_ * node_words()), 4).overwritten = true;
+        // Behind the counters: the draws' first triangles (see ldm/build.comp).
+        d.creates_buffer("ldm.counts", std::to_string(k_counts + d.facts.instances + 1), 4);
+        d.creates_buffer("ldm.batches", std::to_string(batches_), 4);
+        for (const char* name : {"ldm.views", "ldm.info", "ldm.lists"})
+            d.writes(name, Usage::storage);
+        d.counts("fragments in the largest batch", "ldm.counts", 1);
+        d.counts("fragments without room", "ldm.counts", 2, true);
+        d.counts("fragments of all maps", "ldm.counts", 3);
+        d.counts("KiB of all lists", "ldm.counts", 4);
+        d.uses(route_ == Route::raster ? "build" : "build_by_compute");
+        for (const char* program : {"start_batch", "finish_batch"})
+            d.uses(program);
+        if (arrays()) {
+            int64_t heads = texels * slots_;
+            d.creates_buffer("ldm.arrays", std::to_string(heads + 1 + capacity_ * (node_words() - 1)), 4).overwritten =
+                true;
+            declare_prefix_sum(d, std::to_string(heads));
+            d.uses("list_lengths");
+            d.uses("write_arrays");
+        }
+        d.repeat(0, batches_, "ldm");
+    }
+
+    /// Room for what the largest batch had asked for, and some more.
+    bool outgrown(const std::vector<int64_t>& counted) override {
+        if (counted.size() < 2 || counted[1] <= 0) return false;
+        double texels = double(resolution_) * resolution_ * slots_;
+        double wanted = 1.1 * double(counted[0]) / texels;
+        if (wanted <= grown_ || double(counted[0]) <= double(capacity_)) return false;
+        grown_ = wanted;
+        return true;
+    }
+
+    void execute(PassContext& c) override {
+        auto wait = [] { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); };
+        if (c.iteration == 0) write_views(c);
+        c.set("batch", c.iteration);
+        int heads = slots_ * resolution_ * resolution_, for_each_head = std::min(heads, 1 << 22);
+        c.dispatch("start_batch", {for_each_head, 1, 1});
+        wait();
+        build(c, (maps_ - c.iteration + batches_ - 1) / batches_);
+        wait();
+        if (arrays()) {
+            c.dispatch("list_lengths", {for_each_head, 1, 1});
+            wait();
+            run_prefix_sum(c, heads);
+            c.dispatch("write_arrays", {for_each_head, 1, 1});
+            wait();
+        }
+        c.dispatch("finish_batch", {1, 1, 1});
+    }
+
+  private:
+    enum class Nodes { depth, plane, surface };
+    enum class Route { raster, compute };
+    enum class Storage { lists, arrays };
+    static constexpr size_t k_counts = 8; ///< numbers in ldm.counts before the draws' first triangles
+    bool arrays() const { return storage_ == Storage::arrays; }
+    int node_words() const { return 2 + int(nodes_); }
+
+    /// The fragments of `slots` maps.
+    void build(PassContext& c, int slots) {
+        if (route_ == Route::raster) {
+            Targets none;
+            none.size = glm::ivec2(resolution_);
+            DrawOptions options;
+            options.instances = slots;
+            c.draw_scene("build", none, options);
+            return;
+        }
+        const std::vector<GpuDraw>& draws = c.scene().draw_list();
+        std::vector<uint32_t> starts{0};
+        for (const GpuDraw& draw : draws)
+            starts.push_back(starts.back() + draw.index_count / 3);
+        if (c.iteration == 0)
+            c.buffer("ldm.counts").update(k_counts * sizeof(uint32_t), starts.size() * sizeof(uint32_t), starts.data());
+        // A group looks at up to 64 triangles of up to so many texels, a sixty-fourth of them by each invocation.
+        constexpr int k_band_texels = 16384, k_most_groups = 65535, k_group = 64;
+        int bands = std::min((resolution_ * resolution_ + k_band_texels - 1) / k_band_texels, resolution_);
+        int groups = int(std::min<int64_t>((int64_t(starts.back()) + k_group - 1) / k_group, k_most_groups));
+        if (groups == 0) return;
+        c.set("draw_count", int(draws.size()));
+        c.set("bands", bands);
+        c.dispatch("build_by_compute", {groups * k_group, slots, bands});
+    }
+
+    void write_views(PassContext& c) {
+        std::vector<LdmView> views;
+        glm::mat3 turn = rotate_ ? turn_of_frame(c.frame().frame_index) : glm::mat3(1);
+        if (tilted_) turn = turn * tilt_off_axes();
+        for (glm::vec3 direction : ldm_directions(maps_))
+            views.push_back(ldm_view(glm::normalize(turn * direction), c.facts().bounds_over_animation, resolution_));
+        c.buffer("ldm.views").update(0, views.size() * sizeof(LdmView), views.data());
+        LdmInfo info{maps_,        resolution_,        batches_,        slots_, slots_ * resolution_ * resolution_,
+                     node_words(), int32_t(capacity_), arrays() ? 1 : 0};
+        c.buffer("ldm.info").update(0, sizeof(info), &info);
+    }
+
+    int maps_ = 512, resolution_ = 200;
+    Nodes nodes_ = Nodes::depth;
+    Route route_ = Route::raster;
+    Storage storage_ = Storage::lists;
+    bool tilted_ = false, rotate_ = false;
+    int memory_ = 120;
+    float fragments_ = 4;
+    double grown_ = 0; ///< nodes a texel that a batch was found to need
+    int slots_ = 1, batches_ = 1;
+    int64_t capacity_ = 0;
+};
+
+BOUNCE_REGISTER_PASS("ldm", LayeredDepthMapsPass,
+                     "layered depth maps along N axes: a sorted list of all surfaces in each texel")
+
+} // namespace bounce

@@ -1,0 +1,98 @@
+// Photon tracing (LDM, section 4.2): the photons of point and spot lights, split at their first hit over the axes of
+// each batch of layered depth maps, traced in them, and stored where the camera sees them arrive.
+#include "ldm/photons.h"
+
+#include "core/error.h"
+#include "graph/context.h"
+#include "graph/prefix_sum.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bounce {
+
+class PhotonsPass : public Pass {
+  public:
+    void describe(PassDescription& description) override {
+        for (const char* name : {"primaries", "trace_photons", "store_photons", "finish_photons"})
+            description.program(name, {std::string("ldm/") + name + ".comp"});
+        describe_prefix_sum(description);
+        for (const char* name : {"batch", "emitter_count", "value_count"})
+            description.constant(name);
+        description.parameters.add("second_axes", second_axes_, {0, 64}, "axes",
+                                   "a second bounce: photons that arrive are split again over so many axes of their "
+                                   "batch (needs ldm.nodes=surface); 0: one bounce, as published");
+        description.parameters.add("third_axes", third_axes_, {0, 16}, "axes",
+                                   "a third bounce, likewise (needs second_axes)");
+        description.parameters.add("photons", room_, {0.001, 1}, "per photon traced",
+                                   "share of a batch's photons that the first build has room for; it grows");
+    }
+
+    std::string unneeded(const SceneFacts& facts) const override {
+        return facts.point_lights + facts.spot_lights ? "" : "the scene has no point or spot light";
+    }
+
+    void declare(Declaration& d) override {
+        for (const char* program : {"primaries", "trace_photons", "store_photons", "finish_photons"})
+            d.uses(program);
+        // Sizes by expressions: the maps' and the reflective shadow maps' are other passes' parameters.
+        const std::string emitters = "(rsm.depth.width * rsm.depth.height * rsm.depth.depth)";
+        const std::string values =
+            emitters + " * ceil(ldm.views.count / ldm.batches.count) * " + std::to_string(paths());
+        d.creates_buffer("photons.emitters", emitters, sizeof(Emitter)).overwritten = true;
+        d.creates_buffer("photons.fates", values, 4).overwritten = true;
+        d.creates_buffer("photons.commands", "8", 4).overwritten = true;
+        d.creates_buffer("photons.counts", "4", 4);
+        d.creates_buffer("photons.stored",
+                         grown_ > 0 ? std::to_string(grown_)
+                                    : "max(256, ceil(" + values + " * " + std::to_string(room_) + "))",
+                         sizeof(Photon))
+            .overwritten = true;
+        declare_prefix_sum(d, values);
+        d.counts("photons in the largest batch", "photons.counts", 0);
+        d.counts("photons without room", "photons.counts", 1, true);
+        d.counts("photons that arrive where the camera looks", "photons.counts", 2);
+    }
+
+    bool outgrown(const std::vector<int64_t>& counted) override {
+        if (counted.size() < 2 || counted[1] <= 0) return false;
+        int64_t wanted = int64_t(std::ceil(1.1 * double(counted[0])));
+        if (wanted <= grown_) return false;
+        grown_ = wanted;
+        return true;
+    }
+
+    void execute(PassContext& c) override {
+        auto wait = [] { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); };
+        glm::ivec3 map = c.texture("rsm.depth").desc().size;
+        int emitters = map.x * map.y * map.z;
+        int slots = int(c.buffer("photons.fates").bytes() / 4 / size_t(emitters * paths()));
+        if (second_axes_ > 0 && c.number("ldm.nodes").value_or(0) < 2)
+            throw Error("more than one bounce needs the normal and albedo of what photons meet: set ldm.nodes=surface");
+        c.set("batch", c.iteration);
+        c.set("emitter_count", emitters);
+        c.set("value_count", emitters * slots * paths());
+        if (c.iteration == 0) {
+            c.dispatch("primaries", map);
+            wait();
+        }
+        c.dispatch("trace_photons", {emitters, slots, paths()});
+        wait();
+        run_prefix_sum(c, int64_t(emitters) * slots * paths());
+        c.dispatch("store_photons", {emitters, slots, paths()});
+        wait();
+        c.dispatch("finish_photons", {1, 1, 1});
+    }
+
+  private:
+    int paths() const { return 1 + second_axes_ * (1 + third_axes_); }
+
+    int second_axes_ = 0, third_axes_ = 0;
+    float room_ = 0.25f;
+    int64_t grown_ = 0; ///< photons of the largest batch so far, and a reserve; 0: not known yet
+};
+
+BOUNCE_REGISTER_PASS("photons", PhotonsPass,
+                     "photon differentials: split at their first hit, traced in layered depth maps, stored where seen")
+
+} // namespace bounce
