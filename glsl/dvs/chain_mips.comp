@@ -6,6 +6,7 @@
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 
 uniform sampler3D dvs_finer;
+uniform usampler3D voxels_bricks;
 layout(FORMAT_dvs_directional) writeonly uniform image3D dvs_directional;
 
 uniform int coarser_mip;
@@ -14,7 +15,9 @@ void main() {
     ivec3 voxel = ivec3(gl_GlobalInvocationID);
     int size = imageSize(dvs_directional).z;
     if (any(greaterThanEqual(voxel, ivec3(size)))) return;
-    for (int leaf = 0; leaf < 6; ++leaf) {
+    int bricks = textureSize(voxels_bricks, 0).x;
+    bool held = size < bricks || texelFetch(voxels_bricks, voxel / max(size / bricks, 1), 0).r != 0u;
+    for (int leaf = 0; leaf < (held ? 6 : 0); ++leaf) {
         ivec3 base = 2 * voxel + tile_of(leaf, 2 * size);
         vec4 children[8];
         float occupied = 0.0;

@@ -25,7 +25,7 @@ void DirectionalFilter::run(PassContext& c) const {
     if (leaves)
         c.dispatch_indirect("leaves", "voxels.counts");
     else
-        c.dispatch("base_mips", glm::ivec3(directional.size.z));
+        c.dispatch("base_mips", c.texture("voxels.bricks").desc().size);
     for (int mip = 1; mip < directional.mips; ++mip) {
         wait();
         c.set("coarser_mip", mip);

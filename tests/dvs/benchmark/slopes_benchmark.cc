@@ -1,0 +1,106 @@
+// How the stages of dvs grow: voxelization with triangles (a bumpy plane, finer and finer) and with voxels, the filter
+// and the bounce with voxels, the gather with pixels. Google Benchmark fits a line through the times (BigO: the cost of
+// one; RMS: how far from a line they lie). Times are what the graph's own timers tell, medians of a few frames; with
+// BOUNCE_CPU_TIME in the environment processor time.
+#include "app/hosts/headless.h"
+#include "app/session.h"
+#include "support/temp_folder.h"
+#include "support/tiny_scene.h"
+
+#include <benchmark/benchmark.h>
+#include <cmath>
+
+using namespace bounce;
+
+namespace {
+
+/// Milliseconds of the passes `ids` together, everything voxelized in each frame.
+double measure(const std::string& shot, glm::ivec2 size, int resolution, const std::vector<std::string>& ids) {
+    SessionOptions options;
+    options.shot = shot;
+    options.graph = "dvs";
+    options.size = size;
+    options.sets = {{"voxelization.resolution", std::to_string(resolution)}, {"voxelization.static_once", "false"}};
+    Session session(options);
+    for (int frame = 0; frame < 5; ++frame) {
+        if (frame == 2) session.graph().forget_timings(); // compiled and warm
+        session.render();
+        session.advance();
+    }
+    session.graph().finish_timings();
+    double ms = 0;
+    for (const std::string& id : ids)
+        ms += session.graph().timing(id).median;
+    return ms;
+}
+
+/// A wavy plane of 2·side² triangles in one mesh.
+std::string waves(const TempFolder& folder, int side) {
+    std::vector<glm::vec3> corners;
+    auto at = [&](int x, int z) {
+        glm::vec2 p = 2.0f * glm::vec2(x, z) / float(side) - 1.0f;
+        return glm::vec3(p.x, 0.1f * std::sin(9 * p.x) * std::cos(7 * p.y), p.y);
+    };
+    for (int z = 0; z < side; ++z)
+        for (int x = 0; x < side; ++x)
+            corners.insert(corners.end(),
+                           {at(x, z + 1), at(x + 1, z + 1), at(x + 1, z), at(x, z + 1), at(x + 1, z), at(x, z)});
+    std::ofstream(folder / "waves.bin", std::ios::binary)
+        .write(reinterpret_cast<const char*>(corners.data()), std::streamsize(corners.size() * sizeof(glm::vec3)));
+    folder.write(
+        "waves.gltf",
+        fmt::format(
+            R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],)"
+            R"("meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],"accessors":[{{"bufferView":0,)"
+            R"("componentType":5126,"count":{},"type":"VEC3","min":[-1,-0.1,-1],"max":[1,0.1,1]}}],)"
+            R"("bufferViews":[{{"buffer":0,"byteLength":{}}}],"buffers":[{{"uri":"waves.bin","byteLength":{}}}]}})",
+            corners.size(), corners.size() * 12, corners.size() * 12));
+    return write_shot(folder.path(), "waves", "waves.gltf", {0, 1.5f, 2}, {0, 0, 0},
+                      R"({"type":"directional","direction":[0.3,-1,0.2],"intensity":3})");
+}
+
+void voxelization_by_triangles(benchmark::State& state) {
+    TempFolder folder;
+    int side = int(state.range(0));
+    std::string shot = waves(folder, side);
+    for (auto _ : state)
+        state.SetIterationTime(measure(shot, {16, 16}, 64, {"voxelization"}) * 1e-3);
+    state.SetComplexityN(int64_t(2) * side * side);
+}
+
+void by_voxels(benchmark::State& state, const std::vector<std::string>& ids) {
+    int side = int(state.range(0));
+    for (auto _ : state)
+        state.SetIterationTime(measure("cornell", {16, 16}, side, ids) * 1e-3);
+    state.SetComplexityN(int64_t(side) * side * side);
+}
+
+void gather_by_pixels(benchmark::State& state) {
+    int side = int(state.range(0));
+    for (auto _ : state)
+        state.SetIterationTime(measure("cornell", glm::ivec2(side), 64, {"gather"}) * 1e-3);
+    state.SetComplexityN(int64_t(side) * side);
+}
+
+void as_lines(benchmark::internal::Benchmark* b) {
+    b->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond)->Complexity(benchmark::oN);
+}
+void resolutions(benchmark::internal::Benchmark* b) {
+    b->RangeMultiplier(2)->Range(32, 256);
+    as_lines(b);
+}
+
+} // namespace
+
+BENCHMARK(voxelization_by_triangles)->RangeMultiplier(2)->Range(64, 512)->Apply(as_lines);
+BENCHMARK_CAPTURE(by_voxels, voxelization, {"voxelization"})->Apply(resolutions);
+BENCHMARK_CAPTURE(by_voxels, filter, {"filter"})->Apply(resolutions);
+BENCHMARK_CAPTURE(by_voxels, bounce, {"voxel_bounce"})->Apply(resolutions);
+BENCHMARK(gather_by_pixels)->DenseRange(64, 256, 64)->Apply(as_lines);
+
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    HeadlessContext context;
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}
