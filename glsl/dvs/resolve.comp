@@ -21,7 +21,7 @@ uniform uint kind;
 uniform int averaging;
 uniform float emission_scale;
 uniform bool planes; // the mean plane goes into voxels.normal
-uniform float plane_coherence = 0.3; //! [0.3, 1] planes: the length of the averaged normal from which a voxel has a plane
+uniform float plane_coherence = 0.8; //! [0.3, 1] planes: the length of the averaged normal from which a voxel has a plane
 
 void visit_voxel(VisitedTriangle triangle, ivec3 voxel) {}
 
@@ -53,7 +53,7 @@ void main() {
         f.area = float(sums[base + 12u]) / k_fixed;
     }
     float size = length(f.normal), offset = 1.0;
-    // The mean of the planes' equations is a plane, unless the normals cancel.
+    // The mean of the planes' equations is a plane; past that of a corner (normals .71 long) rays would leak.
     if (planes && averaging != 0 && size > plane_coherence) offset = clamp(f.offset / size, -0.87, 0.87);
     if (emission_share == 1 && averaging >= 2 && f.emission != vec3(0.0)) {
         // Of a small body in the voxel a quarter of its surface is seen on average, in front of a quarter of the voxel's.
