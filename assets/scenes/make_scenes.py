@@ -15,7 +15,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 sys.dont_write_bytecode = True
 
-from generator import animated, atrium, cornell, gallery, hairball  # noqa: E402  (the path must be set first)
+from generator import animated, atrium, cornell, gallery, hairball, strip  # noqa: E402  (the path must be set first)
 
 SCENES = {
     "cornell": cornell.cornell,
@@ -24,6 +24,8 @@ SCENES = {
     "gallery": gallery.gallery,
     "animated": animated.animated,
     "hairball": hairball.hairball,
+    "strip_room": strip.strip_room,
+    "strip": strip.strip,
 }
 
 

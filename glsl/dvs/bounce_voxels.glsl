@@ -19,7 +19,7 @@ uniform bool interleave = false; //! neighbouring voxels take different cones: e
 uniform float aperture = 45.0;   //! [1, 90] (degrees) of each cone, from side to side
 
 vec3 gathered(VoxelGrid grid, ivec3 voxel, vec3 n) {
-    vec3 apex = voxel_centre(voxel, grid.resolution) + normal_offset * grid.voxel * n;
+    vec3 apex = voxel_centre(voxel, grid.resolution) + grid.voxel * (surface_offset(voxel) * voxel_normal(voxel) + normal_offset * n);
     mat3 frame = frame_around(n);
     float diameter = 2.0 * tan(radians(0.5 * aperture));
     ivec3 odd = voxel & 1;

@@ -73,7 +73,7 @@ float ray_visibility(vec3 from, vec3 l, float distance, float voxel, int size) {
 
 vec3 voxel_light(ivec3 voxel, vec3 n, vec3 albedo, int size) {
     float side = voxel_grid_side(size), width = side / float(size);
-    vec3 centre = voxel_centre(voxel, size), sum = vec3(0.0);
+    vec3 centre = voxel_centre(voxel, size) + surface_offset(voxel) * width * voxel_normal(voxel), sum = vec3(0.0);
     for (int i = 0; i < light_count; ++i) {
         vec3 l;
         vec3 irradiance = light_irradiance(lights[i], centre, l);

@@ -41,7 +41,7 @@ void store_fragment(ivec3 voxel, VoxelFragment f) {
     if (place == 0u) return; // the list had no room
     uint base = (place - 1u) * k_sums;
     uvec3 albedo = fixed_share(f.albedo), normal = fixed_normal(f.normal);
-    uvec3 emission = emission_scale > 0.0 ? fixed_share(f.emission / emission_scale) : uvec3(0u);
+    uvec3 emission = emission_scale > 0.0 ? fixed_emission(f.emission / emission_scale, emission_weight(f)) : uvec3(0u);
     atomicAdd(sums[base], 1u);
     for (uint i = 0u; i < 3u; ++i) {
         atomicAdd(sums[base + 1u + i], albedo[i]);
@@ -49,6 +49,8 @@ void store_fragment(ivec3 voxel, VoxelFragment f) {
         if (emission_scale > 0.0) atomicAdd(sums[base + 7u + i], emission[i]);
     }
     atomicOr(sums[base + 10u], f.leaves);
+    atomicAdd(sums[base + 11u], fixed_offset(f.offset));
+    if (f.area > 0.0) atomicAdd(sums[base + 12u], fixed_area(f.area));
 }
 
 #endif

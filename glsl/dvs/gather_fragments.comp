@@ -28,7 +28,7 @@ void main() {
     if (index >= listed || (kind == k_dynamic && index < static_listed)) return;
     ivec3 voxel = voxel_of(list[index]);
     int draw_count = draw_starts.length() - 1;
-    uint fragments = 0u, leaves = 0u;
+    uint fragments = 0u, leaves = 0u, offset = 0u, area = 0u;
     uvec3 albedo = uvec3(0u), normal = uvec3(0u), emission = uvec3(0u);
     int last_box = min(first_box + 8, bounds_of_level(2)), rows = first_of_level(1), boxes = first_of_level(2);
     for (int box = first_box; box < last_box; ++box) {
@@ -46,8 +46,10 @@ void main() {
                     ++fragments;
                     albedo += fixed_share(f.albedo);
                     normal += fixed_normal(f.normal);
-                    if (emission_scale > 0.0) emission += fixed_share(f.emission / emission_scale);
+                    if (emission_scale > 0.0) emission += fixed_emission(f.emission / emission_scale, emission_weight(f));
                     leaves |= f.leaves;
+                    offset += fixed_offset(f.offset);
+                    area += fixed_area(f.area);
                 }
             }
         }
@@ -60,4 +62,6 @@ void main() {
         sums[base + 7u + i] += emission[i];
     }
     sums[base + 10u] |= leaves;
+    sums[base + 11u] += offset;
+    sums[base + 12u] += area;
 }

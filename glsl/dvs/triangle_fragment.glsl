@@ -19,6 +19,7 @@ VoxelFragment fragment_of(VisitedTriangle t, ivec3 voxel) {
     float size = length(authored);
     f.normal = size > 0.0 ? authored / size : facing;
     f.leaves = leaves_of(facing, (m.flags & 1u) != 0u);
+    place_fragment(f, t.positions[0], t.positions[1], t.positions[2], facing, voxel);
     return f;
 }
 

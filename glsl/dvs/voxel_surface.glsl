@@ -31,6 +31,12 @@ bool voxel_has_back(ivec3 voxel, vec3 n) {
     return false;
 }
 
+// How far the voxel's surface lies from its centre along its averaged normal (voxels): 0 where that is not known.
+float surface_offset(ivec3 voxel) {
+    float offset = texelFetch(voxels_normal, voxel, 0).a;
+    return offset > 0.99 ? 0.0 : offset;
+}
+
 vec3 voxel_centre(ivec3 voxel, int grid_resolution) {
     float side = voxel_grid_side(grid_resolution);
     return voxel_grid_origin(side) + (vec3(voxel) + 0.5) * (side / float(grid_resolution));

@@ -1,5 +1,5 @@
 // Voxelization into albedo, normal and emission without a rasterizer (DVS, section V.A): each triangle visits the voxels that
-// it overlaps. operation: mark, add or average (dvs/fragment_store.glsl).
+// it overlaps. operation: add or average (dvs/fragment_store.glsl); marks: dvs/mark.comp.
 #include "voxel/triangle_voxels.glsl"
 #include "dvs/triangle_fragment.glsl"
 #include "dvs/fragment_store.glsl"
@@ -8,8 +8,7 @@ layout(local_size_x = 256) in;
 
 void visit_voxel(VisitedTriangle triangle, ivec3 voxel) {
     if (taken_by_static(voxel)) return;
-    if (operation == 0) store_mark(voxel, triangle.index);
-    else store_fragment(voxel, fragment_of(triangle, voxel));
+    store_fragment(voxel, fragment_of(triangle, voxel));
 }
 
 void main() {

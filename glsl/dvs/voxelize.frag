@@ -25,11 +25,15 @@ ivec3 unproject(ivec2 plane, int depth, int axis) {
     return axis == 0 ? ivec3(depth, plane) : (axis == 1 ? ivec3(plane.y, depth, plane.x) : ivec3(plane, depth));
 }
 
-void store(ivec3 voxel, VoxelFragment f) {
+void store(ivec3 voxel, VoxelFragment f, vec3 facing) {
     if (any(lessThan(voxel, ivec3(0))) || any(greaterThanEqual(voxel, ivec3(resolution_of_grid)))) return;
     if (taken_by_static(voxel)) return;
-    if (operation == 0) store_mark(voxel, surface_triangle);
-    else store_fragment(voxel, f);
+    if (operation == 0) {
+        store_mark(voxel, surface_triangle);
+        return;
+    }
+    place_fragment(f, surface_a, surface_b, surface_c, facing, voxel);
+    store_fragment(voxel, f);
 }
 
 void main() {
@@ -65,12 +69,12 @@ void main() {
         // Outside the triangle its plane may leave its box.
         float least = min(surface_a[axis], min(surface_b[axis], surface_c[axis]));
         float most = max(surface_a[axis], max(surface_b[axis], surface_c[axis]));
-        store(unproject(column, int(floor(clamp(depth, least, most))), axis), f);
+        store(unproject(column, int(floor(clamp(depth, least, most))), axis), f, facing);
         return;
     }
     float reach = 0.5 * (abs(across.x) + abs(across.y) + abs(across.z)) / abs(normal[axis]);
     for (int d = int(floor(depth - reach - 1.0e-3)); d <= int(floor(depth + reach + 1.0e-3)); ++d) {
         ivec3 voxel = unproject(column, d, axis);
-        if (triangle_overlaps_voxel(surface_a, surface_b, surface_c, voxel)) store(voxel, f);
+        if (triangle_overlaps_voxel(surface_a, surface_b, surface_c, voxel)) store(voxel, f, facing);
     }
 }

@@ -12,8 +12,8 @@ namespace bounce {
 class VoxelizationPass : public Pass {
   public:
     void describe(PassDescription& description) override {
-        for (const char* name : {"voxelize", "compact", "finish_list", "clear_dynamic", "forget_dynamic", "resolve",
-                                 "triangle_bounds", "gather_fragments"})
+        for (const char* name : {"mark", "voxelize", "compact", "finish_list", "clear_dynamic", "forget_dynamic",
+                                 "resolve", "triangle_bounds", "gather_fragments"})
             description.program(name, {std::string("dvs/") + name + ".comp"});
         description.program("raster", {"dvs/voxelize.vert", "dvs/voxelize.geom", "dvs/voxelize.frag"});
         for (const char* name :
@@ -30,6 +30,12 @@ class VoxelizationPass : public Pass {
             "how the fragments of a voxel become one. average: packed running means by compare-and-swap, as "
             "published; last_writer: one triangle's surface; sum: integer sums by atomic adds, the same every "
             "run; gather: the same sums without atomics, each voxel going through its triangles (compute route)");
+        p.add_choice("emission_share", emission_share_, {"mean", "covered"},
+                     "averaging=sum or gather. mean: emission is averaged over triangles, like all else; covered: it "
+                     "counts by the part of the voxel's mean plane that emitters cover");
+        p.add("planes", planes_,
+              "all but averaging=average: a voxel also knows where its mean plane lies, and exact hits are with "
+              "that plane; off: the whole voxel blocks");
         p.add("static_once", static_once_,
               "static geometry is voxelized when it changes only, as published; off: all of it in each frame");
         p.add("room", room_, {1, 256}, "",
@@ -68,7 +74,7 @@ class VoxelizationPass : public Pass {
             volume("voxels.packed_normal", "r32ui");
             if (emission_) volume("voxels.packed_emission", "r32ui");
         } else {
-            list("voxels.sums", room, averaging_ == Averaging::last_writer ? 4 : 12 * 4);
+            list("voxels.sums", room, averaging_ == Averaging::last_writer ? 4 : 13 * 4);
         }
         d.creates_buffer("voxels.draw_starts", std::to_string(d.facts.instances + 1), 4).persistent = true;
         d.writes("voxels.draw_starts", Usage::storage);
@@ -79,7 +85,12 @@ class VoxelizationPass : public Pass {
             d.uses("triangle_bounds");
             d.uses("gather_fragments");
         }
-        d.uses(by_raster() ? "raster" : "voxelize");
+        if (by_raster()) {
+            d.uses("raster");
+        } else {
+            if (averaging_ != Averaging::average) d.uses("mark");
+            if (averaging_ == Averaging::average || averaging_ == Averaging::sum) d.uses("voxelize");
+        }
         for (const char* program : {"compact", "finish_list", "resolve"})
             d.uses(program);
         d.counts("occupied voxels", "voxels.counts", 3);
@@ -115,6 +126,7 @@ class VoxelizationPass : public Pass {
   private:
     enum class Route { raster, compute };
     enum class Averaging { average, last_writer, sum, gather };
+    enum class EmissionShare { mean, covered };
     static constexpr int k_static = 1, k_dynamic = 2; // as in dvs/list.glsl
     static constexpr int k_row = 65536;               // as in voxel/triangle_voxels.glsl
 
@@ -134,8 +146,9 @@ class VoxelizationPass : public Pass {
             state.insert(state.end(), bytes, bytes + sizeof(value));
         };
         if (!static_once_) add(++frames_);
-        add(resolution_), add(route_), add(averaging_), add(room_),
+        add(resolution_), add(route_), add(averaging_), add(emission_share_), add(planes_), add(room_),
             add(c.number(c.plan().id + ".leaf_threshold").value_or(0)),
+            add(c.number(c.plan().id + ".plane_coherence").value_or(0)),
             add(c.number(c.plan().id + ".fill").value_or(0));
         add(c.frame().scene_min), add(c.frame().scene_max); // the grid
         for (const GpuDraw& draw : c.scene().draw_list()) {
@@ -172,7 +185,7 @@ class VoxelizationPass : public Pass {
         starts.resize(buffer.bytes() / sizeof(uint32_t), starts.back());
         buffer.update(0, starts.size() * sizeof(uint32_t), starts.data());
         int triangles = int(starts.back());
-        auto visit = [&] {
+        auto visit = [&](const char* by_compute) {
             if (by_raster()) {
                 Targets none;
                 none.size = glm::ivec2(resolution_);
@@ -184,12 +197,12 @@ class VoxelizationPass : public Pass {
                 return;
             }
             constexpr int k_lanes = 16; // as in voxel/triangle_voxels.glsl
-            c.dispatch("voxelize", {std::min(triangles, k_row) * k_lanes, (triangles + k_row - 1) / k_row, 1});
+            c.dispatch(by_compute, {std::min(triangles, k_row) * k_lanes, (triangles + k_row - 1) / k_row, 1});
         };
         c.set("kind", kind);
         c.set("operation", averaging_ == Averaging::average ? 2 : 0);
         wait();
-        visit();
+        visit(averaging_ == Averaging::average ? "voxelize" : "mark");
         wait();
         int bricks = (resolution_ + 3) / 4;
         c.dispatch("compact", {bricks * bricks * bricks, 1, 1});
@@ -198,7 +211,7 @@ class VoxelizationPass : public Pass {
         wait();
         if (averaging_ == Averaging::sum) {
             c.set("operation", 1);
-            visit();
+            visit("voxelize");
             wait();
         }
         if (averaging_ == Averaging::gather) gather_fragments(c, triangles);
@@ -224,7 +237,8 @@ class VoxelizationPass : public Pass {
     int resolution_ = 128;
     Route route_ = Route::raster;
     Averaging averaging_ = Averaging::average;
-    bool static_once_ = true, emission_ = false;
+    EmissionShare emission_share_ = EmissionShare::mean;
+    bool static_once_ = true, emission_ = false, planes_ = false;
     int room_ = 32;
     std::vector<char> state_; ///< what the static voxels were made of; empty: there are none
     uint64_t frames_ = 0;

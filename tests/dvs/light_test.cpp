@@ -190,11 +190,12 @@ TEST_F(VoxelLight, BouncesOnceBetweenTwoPlates) {
     double ratio = 16 / (22.5 - 9), across = ratio / std::sqrt(1 + ratio * ratio);
     double form = 4 / double(k_pi) * across * std::atan(across);
     double lower = 0.8 / k_pi * 10, wanted = 0.5 * lower * form;
-    auto bounced = [&](const std::string& params) {
+    auto bounced = [&](const std::string& params, const std::string& planes = "false") {
         SceneRunner run(
             scene, {directional_light({0, -1, 0}, {10, 10, 10})},
             graph_file(
-                R"("passes":[{"type":"voxelization","params":{"resolution":32,"averaging":"sum"}},
+                R"("passes":[{"type":"voxelization","params":{"resolution":32,"averaging":"sum","planes":)" + planes +
+                R"(}},
                 {"type":"voxel_direct","params":{"occlusion":"none","two_sided":true}},
                 {"id":"filter","type":"voxel_filter","params":{"directional_leaves":true},
                  "bind":{"dvs.filtered":"dvs.radiance","dvs.finer":"dvs.directional"}},
@@ -216,6 +217,12 @@ TEST_F(VoxelLight, BouncesOnceBetweenTwoPlates) {
     fmt::print("    bounced {:.4f} by exact hits, {:.4f} by cones, {:.4f} in closed form\n", exact, wide, wanted);
     EXPECT_NEAR(exact, wanted, 0.05 * wanted);
     EXPECT_NEAR(wide, wanted, 0.15 * wanted);
+    // With planes the plates are where they are: y = ±½ at voxels 23.53 and 8.47, the apex one below.
+    ratio = 16 / (22.53 - 8.47), across = ratio / std::sqrt(1 + ratio * ratio);
+    wanted = 0.5 * lower * 4 / double(k_pi) * across * std::atan(across);
+    double plane = bounced(R"("hit_then_sample":true,"exact_hits":true,"cone_set":"spiral","spiral_cones":64)", "true");
+    fmt::print("    {:.4f} by hits of planes, {:.4f} in closed form\n", plane, wanted);
+    EXPECT_NEAR(plane, wanted, 0.02 * wanted);
 }
 
 /// A medium that is the same everywhere, α and L: after n steps front to back, α_n = 1 − (1 − α)^n and c = L·α_n; the

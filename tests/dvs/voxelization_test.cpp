@@ -2,7 +2,9 @@
 #include "support/scene_runner.h"
 #include "voxel/overlap_oracle.h"
 
+#include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <set>
 
 using namespace bounce;
@@ -219,6 +221,83 @@ TEST_F(Voxelization, SumsAndGathersDoNotDependOnTheOrder) {
                 EXPECT_EQ(volumes[0], sums);
             }
         }
+    }
+}
+
+/// Where all fragments of a voxel lie in one plane, its offset is that plane's: a step of eight bits beside the
+/// normal's own rounding. Voxels without planes say 1.
+TEST_F(Voxelization, KnowsWhereItsPlaneLies) {
+    Scene scene =
+        MadeScene()
+            .quad({-0.9f, -0.31f, 0.83f}, {0.87f, 0.12f, 0.91f}, {0.93f, 0.27f, -0.88f}, {-0.84f, -0.16f, -0.96f})
+            .scene;
+    const Primitive& primitive = scene.meshes[0].primitives[0];
+    OverlapOracle oracle(scene, k_resolution);
+    std::array<glm::dvec3, 2> from, normals;
+    for (size_t t = 0; t < 2; ++t) {
+        std::array<glm::dvec3, 3> p;
+        for (size_t k = 0; k < 3; ++k)
+            p[k] = (glm::dvec3(scene.vertices[scene.indices[primitive.first_index + 3 * t + k]].position) -
+                    oracle.origin) *
+                   (k_resolution / oracle.side);
+        from[t] = p[0], normals[t] = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
+    }
+    for (const char* averaging : {"sum", "gather", "last_writer"}) {
+        SceneRunner run(scene, {directional_light({0, -1, 0}, {1, 1, 1})}, graph_file(k_graph),
+                        {{"voxelization.averaging", averaging}, {"voxelization.planes", "true"}});
+        run.frame();
+        std::vector<float> normal = run.read("voxels.normal"), albedo = run.read("voxels.albedo");
+        int known = 0;
+        for (size_t i = 0; i < oracle.separations.size(); ++i) {
+            if (albedo[4 * i + 3] <= 0) continue;
+            glm::dvec3 centre = glm::dvec3(oracle.voxel_of(i)) + 0.5;
+            double a = glm::dot(normals[0], from[0] - centre), b = glm::dot(normals[1], from[1] - centre);
+            double got = normal[4 * i + 3];
+            EXPECT_GE(got, std::min(a, b) - 0.02) << averaging << ", voxel " << i;
+            EXPECT_LE(got, std::max(a, b) + 0.02) << averaging << ", voxel " << i;
+            ++known;
+        }
+        EXPECT_GT(known, 800);
+    }
+    SceneRunner plain(scene, {directional_light({0, -1, 0}, {1, 1, 1})}, graph_file(k_graph),
+                      {{"voxelization.averaging", "sum"}});
+    plain.frame();
+    std::vector<float> normal = plain.read("voxels.normal"), albedo = plain.read("voxels.albedo");
+    for (size_t i = 0; i < albedo.size(); i += 4)
+        if (albedo[i + 3] > 0) {
+            EXPECT_EQ(normal[i + 3], 1.0f);
+        }
+}
+
+/// An emissive strip on a wall, 4, 2, 1 and ½ voxels wide: the light that its voxels send out is L·A, when each sends
+/// it from its plane's area (here a voxel's face). Means over triangles lose or gain, by what else lies in the voxel.
+TEST_F(Voxelization, KeepsTheLightOfStripsThinnerThanAVoxel) {
+    const double voxel = 2.0 * (1 + 2.0 / k_resolution) / k_resolution;
+    for (double width : {4.0, 2.0, 1.0, 0.5}) {
+        float low = -0.137f, high = low + float(width * voxel), bottom = -0.52f, top = 0.61f, z = -0.99f;
+        MadeScene made;
+        made.box({-1, -1, -1}, {1, 1, 1}, {0.5f, 0.5f, 0.5f}, true)
+            .quad({low, bottom, z}, {high, bottom, z}, {high, top, z}, {low, top, z}, {0, 0, 0});
+        made.material().emission = {4, 2, 1};
+        double wanted = 4.0 * double(high - low) * double(top - bottom);
+        std::map<std::string, double> got;
+        for (const char* share : {"mean", "covered", "gathered"}) {
+            bool gathered = share == std::string("gathered");
+            SceneRunner run(made.scene, {}, graph_file(k_graph),
+                            {{"voxelization.averaging", gathered ? "gather" : "sum"},
+                             {"voxelization.planes", "true"},
+                             {"voxelization.emission_share", gathered ? "covered" : share}});
+            run.frame();
+            std::vector<float> emission = run.read("voxels.emission");
+            double sum = 0;
+            for (size_t i = 0; i < emission.size(); i += 4)
+                sum += emission[i] * voxel * voxel;
+            got[share] = sum / wanted;
+        }
+        fmt::print("    {} voxels: {:.3f} of the light by means, {:.3f} by the covered share\n", width, got["mean"],
+                   got["covered"]);
+        EXPECT_EQ(got["gathered"], got["covered"]);
+        EXPECT_NEAR(got["covered"], 1, 0.02) << width << " voxels"; // rounding of area·L to 1/32767, rgba16f
     }
 }
 
