@@ -8,6 +8,7 @@
 #define SEE_SPHERE(at_hit, centre, t, diameter, alpha, level, share, light)
 #endif
 #include "lrsm/sample.glsl"
+#include "lrsm/map_walk.glsl"
 #include "voxel/cone.glsl"
 
 uniform bool hit_then_sample = false; //! the maps are looked up once a cone, where it is blocked
@@ -18,11 +19,48 @@ uniform float hit_radius = 1.5;       //! [0.25, 16] (voxels) hit_then_sample: r
 uniform int near_spheres = 0;        //! [0, 8] hit_then_sample: spheres between the surface and where cones start, lit by the maps alone
 uniform float near_diameter = 0.5;   //! [0.05, 2] (voxels) of these spheres
 
+uniform int hit_lookup = 0;     //! {layers, map} hit_then_sample: layers: a sphere in the layers; map: the ray's own walk over the reflective shadow maps, next to the surface and around where voxels block it
+uniform float map_near = 2.0;   //! [0, 64] (voxels) hit_lookup map: how far the walk from the surface goes
+uniform float map_before = 1.5; //! [0, 8] (voxels) hit_lookup map: where the walk around a hit begins, before it
+uniform float map_after = 1.5;  //! [0, 8] (voxels) hit_lookup map: where it ends, beyond the hit
+uniform int map_tries = 4;      //! [1, 16] hit_lookup map: hits that may prove wrong (all is lit around them, so that nothing opaque can be there), and one more
+
+// hit_lookup map: the ray from the surface itself, so that next to it nothing is passed over. Where voxels say that it is
+// blocked, the maps say exactly where, and by what that is lit; black where they show nothing.
+vec4 trace_walking_cone(VoxelGrid grid, vec3 surface, vec3 face, vec3 apex, vec3 direction) {
+    float same_place = 0.5 * grid.voxel, met, walked = map_near * grid.voxel;
+    vec3 light;
+    bool in_light;
+    if (map_near > 0.0 && walk_maps(surface, face, direction, 0.0, walked, same_place, met, light, in_light)) {
+        SEE_SPHERE(true, surface + met * direction, met, grid.voxel, 1.0, 0.0, 1.0, light);
+        return vec4(light, 1.0);
+    }
+    // A cone from an apex off the surface reaches a plane that faces the surface so much earlier than the ray from the
+    // surface itself.
+    float lag = normal_offset * grid.voxel / max(dot(face, direction), 0.25);
+    float start = max(start_offset, 1.0e-3) * grid.voxel;
+    if (map_near > 0.0 && in_light) start = max(start, walked);
+    for (int i = 0; i < map_tries; ++i) {
+        float hit = find_hit_from(grid, apex, direction, 2.0 * tan(radians(0.5 * hit_aperture)), hit_threshold, start);
+        if (hit < 0.0) return vec4(0.0);
+        float from = max(hit - map_before * grid.voxel, walked), to = max(hit + map_after * grid.voxel + lag, walked);
+        if (to <= walked) return vec4(0.0, 0.0, 0.0, 1.0);
+        if (walk_maps(surface, face, direction, from, to, same_place, met, light, in_light)) {
+            SEE_SPHERE(true, surface + met * direction, met, grid.voxel, 1.0, 0.0, 1.0, light);
+            return vec4(light, 1.0);
+        }
+        if (!in_light) return vec4(0.0, 0.0, 0.0, 1.0);
+        start = walked = to;
+    }
+    return vec4(0.0, 0.0, 0.0, 1.0);
+}
+
 // Radiance along the cone, and in a its occlusion. `diameter`: 2·tan(θ/2), metres a metre. The cone starts at `apex`, off
 // the surface at `surface`: what lies between is too near for voxels to tell it from the surface itself. near_spheres look
 // the maps up there: what is lit and faces the surface counts, and blocks, by the share of the sphere that it covers.
-vec4 trace_lit_cone(VoxelGrid grid, vec3 surface, vec3 apex, vec3 direction, float diameter) {
+vec4 trace_lit_cone(VoxelGrid grid, vec3 surface, vec3 face, vec3 apex, vec3 direction, float diameter) {
     vec3 light = vec3(0.0);
+    if (hit_then_sample && hit_lookup == 1) return trace_walking_cone(grid, surface, face, apex, direction);
     if (hit_then_sample) {
         float open = 1.0;
         for (int k = 0; k < near_spheres; ++k) {

@@ -33,7 +33,7 @@ void main() {
         float below = dot(mirrored, face);
         if (below < 0.02) mirrored = normalize(mirrored + (0.02 - below) * face);
         float diameter = 2.0 * (aperture_from_roughness ? brdf_alpha(rm.x) : tan(radians(0.5 * aperture)));
-        radiance = albedo * trace_lit_cone(grid, position, position + normal_offset * grid.voxel * face, mirrored, diameter).rgb;
+        radiance = albedo * trace_lit_cone(grid, position, face, position + normal_offset * grid.voxel * face, mirrored, diameter).rgb;
     }
     imageStore(out_indirect_specular, pixel, vec4(min(radiance, vec3(65504.0)), 1.0));
 }

@@ -54,10 +54,10 @@ float corrected_opacity(float alpha) {
 float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float level);
 
 // Where a thin cone is blocked: the distance at which its occlusion passes `threshold`; below 0: it is not. Steps of
-// cone_step·d, d = diameter·t, at least a voxel. Empty space is crossed by coarser mips: where the eight texels around a
+// cone_step·d, d = diameter·t, at least a voxel; the first sphere lies at `start`. Empty space is crossed by coarser mips: where the eight texels around a
 // point are empty, nothing lies within half a texel of it.
-float find_hit(VoxelGrid grid, vec3 apex, vec3 direction, float diameter, float threshold) {
-    float t = max(start_offset, 1.0e-3) * grid.voxel, end = reach * scene_diagonal;
+float find_hit_from(VoxelGrid grid, vec3 apex, vec3 direction, float diameter, float threshold, float start) {
+    float t = start, end = reach * scene_diagonal;
     float open = 1.0;
     int coarsest = grid.skip_mips, skip = coarsest;
     for (int i = 0; i < most_steps && t < end; ++i) {
@@ -81,6 +81,10 @@ float find_hit(VoxelGrid grid, vec3 apex, vec3 direction, float diameter, float 
         if (alpha <= 0.0) skip = min(skip + 1, coarsest);
     }
     return -1.0;
+}
+
+float find_hit(VoxelGrid grid, vec3 apex, vec3 direction, float diameter, float threshold) {
+    return find_hit_from(grid, apex, direction, diameter, threshold, max(start_offset, 1.0e-3) * grid.voxel);
 }
 
 #endif

@@ -143,6 +143,17 @@ TEST_F(Gather, OfAUniformlyLitRoomIsItsRadiance) {
     EXPECT_LT(h.brightest, 1.01);
 }
 
+/// By a walk over the maps: each ray finds the wall itself, corners included.
+TEST_F(Gather, OfAUniformlyLitRoomByWalksIsItsRadiance) {
+    Sets walking = k_tuned;
+    walking.insert(walking.end(), {{"gather.hit_lookup", "map"}, {"gather.normal_offset", "0.5"}});
+    Gathered g = gather("", true, walking);
+    note("by walks", g);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(g.mean[c] / k_radiance[c], 1, 0.02);
+    EXPECT_LT(g.brightest, 1.01);
+}
+
 /// As published it loses light (N, V and α all darken): measured, and never more than there is.
 TEST_F(Gather, AsPublishedDoesNotGainLight) {
     Gathered g = gather("", false, {});
