@@ -126,7 +126,7 @@ TEST_F(VoxelViews, FlagsAndCollisionsAreTold) {
             glm::ivec3 v(i % k_side, i / k_side % k_side, i / k_side / k_side);
             dynamic += kind == 2;
             kinds.push_back({v, kind == 2 ? glm::vec3(0.95f, 0.5f, 0.1f) : glm::vec3(0.25f, 0.4f, 0.8f)});
-            uint32_t fragments = packs ? packed[size_t(i)] >> 24 : sums[12 * (place[size_t(i)] - 1)];
+            uint32_t fragments = packs ? packed[size_t(i)] >> 24 : sums[13 * (place[size_t(i)] - 1)];
             ASSERT_GT(fragments, 0u);
             several += fragments > 1;
             float heat = std::log2(float(fragments)) / 8;
