@@ -16,6 +16,7 @@ ivec2 splat_pixel(ivec2 texel) {
     return min((2 * texel + 1) * resolution / (2 * size), resolution - 1);
 }
 
+uniform float normal_agreement = 0.0; //! [0, 0.99] least cosine between a footprint's normal and that of a surface that it lights
 uniform float plane_weight = 1.0; //! [0, 8] â: how fast a footprint ends off its plane (in half lengths √A/2)
 
 vec3 footprint_normal(Photon photon) {

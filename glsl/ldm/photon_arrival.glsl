@@ -17,6 +17,7 @@ uniform int visibility = 0;           //! {depth, plane} how far what the camera
 uniform float visibility_distance = 0.005; //! [1e-5, 0.5] that distance, as a share of the scene's diagonal
 uniform bool snap = false;            //! photons arrive on the plane of the pixel that they project to, where that lies within a texel of the map's depth
 uniform float footprint_scale = 1.0;  //! [0.25, 8] footprints are as many times as long and wide as the photon's differential
+uniform float region_spread = 0.0;    //! [0, 4] footprints also spread with the distance by this share of the width √(2π/N) of an axis's region, which the axis stands for
 uniform float footprint_limit = 0.25; //! [0.001, 10] longest side of a footprint, as a share of the scene's diagonal
 uniform int footprint_excess = 0;     //! {discard, shrink} what becomes of photons with a longer one
 
@@ -99,6 +100,9 @@ uint last_leg(Emitter emitter, int slot, LdmView view, out Photon photon) {
     vec3 du = rotated(emitter.incoming.xyz, d, emitter.du_direction.xyz), dv = rotated(emitter.incoming.xyz, d, emitter.dv_direction.xyz);
     du = footprint_scale * transferred(emitter.du_position.xyz, du, t, d, n);
     dv = footprint_scale * transferred(emitter.dv_position.xyz, dv, t, d, n);
+    float spread = region_spread * t * sqrt(6.28318530718 / float(ldm.maps));
+    du *= sqrt(1.0 + spread * spread / max(dot(du, du), 1.0e-20));
+    dv *= sqrt(1.0 + spread * spread / max(dot(dv, dv), 1.0e-20));
     float limit = footprint_limit * scene_diagonal, long_u = length(du), long_v = length(dv);
     if (max(long_u, long_v) > limit) {
         if (footprint_excess == 0) return k_fate_too_wide;

@@ -3,7 +3,7 @@
 #include "ldm/footprint.glsl"
 
 layout(std430) readonly buffer photons_stored { Photon stored[]; };
-uniform sampler2D gbuffer_normal;
+uniform sampler2D gbuffer_geometric_normal;
 uniform sampler2D gbuffer_depth;
 
 flat in int photon_index;
@@ -15,7 +15,7 @@ void main() {
     if (depth <= 0.0) discard;
     Photon photon = stored[photon_index];
     vec3 n = footprint_normal(photon);
-    if (dot(n, texelFetch(gbuffer_normal, pixel, 0).xyz) <= 0.0) discard; // it arrived on the other side
+    if (dot(n, texelFetch(gbuffer_geometric_normal, pixel, 0).xyz) <= normal_agreement) discard; // it arrived on another side
     float l = footprint_distance(photon, n, world_position(pixel, depth));
     if (l >= 1.0) discard;
     irradiance = vec4(footprint_radiance(photon, l), 1.0);

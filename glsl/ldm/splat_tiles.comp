@@ -11,7 +11,7 @@ layout(std430) readonly buffer photons_stored { Photon stored[]; };
 layout(std430) readonly buffer photons_boxes { uvec2 boxes[]; };
 layout(std430) readonly buffer prefix_values { uint starts[]; };
 layout(std430) readonly buffer splat_lists { uint splat_list[]; };
-uniform sampler2D gbuffer_normal;
+uniform sampler2D gbuffer_geometric_normal;
 uniform sampler2D gbuffer_depth;
 layout(FORMAT_photons_irradiance) uniform image2D photons_irradiance; // E/π so far
 
@@ -23,7 +23,7 @@ void main() {
     ivec2 pixel = splat_pixel(texel);
     float depth = texelFetch(gbuffer_depth, pixel, 0).r;
     if (depth <= 0.0) return;
-    vec3 x = world_position(pixel, depth), normal = texelFetch(gbuffer_normal, pixel, 0).xyz, sum = vec3(0.0);
+    vec3 x = world_position(pixel, depth), normal = texelFetch(gbuffer_geometric_normal, pixel, 0).xyz, sum = vec3(0.0);
     int tile = (texel.y / k_tile) * tiles_across() + texel.x / k_tile;
     uint first = starts[tile * chunk_count], last = min(starts[(tile + 1) * chunk_count], uint(splat_list.length()));
     for (uint i = first; i < last; ++i) {
@@ -31,7 +31,7 @@ void main() {
         if (!box_meets(boxes[index], uvec2(texel), uvec2(texel))) continue;
         Photon photon = stored[index];
         vec3 n = footprint_normal(photon);
-        if (dot(n, normal) <= 0.0) continue; // it arrived on the other side
+        if (dot(n, normal) <= normal_agreement) continue; // it arrived on another side
         float l = footprint_distance(photon, n, x);
         if (l < 1.0) sum += footprint_radiance(photon, l);
     }
