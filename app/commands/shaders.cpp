@@ -35,7 +35,7 @@ int expand_all(const std::string& folder) {
         GraphModel model(read_graph_file(entry.path()));
         for (const auto& node : model.nodes()) {
             for (const auto& program : node->programs) {
-                program->scan(formats_for(*program), GraphModel::static_values(*node));
+                program->scan(formats_for(*program), model.static_values(*node));
                 if (!program->errors().empty()) throw Error(program->errors().front().text());
                 for (size_t i = 0; i < program->sources().size(); ++i) {
                     std::string name = program->stages()[i].string();

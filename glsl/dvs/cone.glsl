@@ -7,7 +7,7 @@
 // hit_then_sample first finds where the cone is blocked, by a thinner cone, and takes the colour there: Σc/Σα over a sphere
 // of `hit_radius` voxels at least. exact_hits makes that a ray from voxel to voxel, and takes the colour of the side of the
 // voxel's surface that it hits, without any directional volume.
-#include "dvs/traverse.glsl"
+#include "dvs/voxel_blocks.glsl"
 #include "dvs/tiles.glsl"
 
 uniform sampler3D dvs_base;        // the radiance volume
@@ -83,10 +83,10 @@ float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float leve
     return corrected_opacity(min(sphere_value(grid, position, direction, level).a, 1.0));
 }
 
-vec3 colour_of_side(VoxelGrid grid, ivec3 voxel, bool front) {
-    ivec3 size = textureSize(dvs_base, 0);
-    ivec3 at = voxel + ivec3(0, 0, !front && size.z > size.x ? size.x : 0);
-    return texelFetch(DVS_BASE, at, 0).rgb;
+// What a voxel's side sends on, by a radiance volume.
+vec3 colour_of_side(sampler3D volume, ivec3 voxel, bool front) {
+    ivec3 size = textureSize(volume, 0);
+    return texelFetch(volume, voxel + ivec3(0, 0, !front && size.z > size.x ? size.x : 0), 0).rgb;
 }
 
 struct Traced {
@@ -107,9 +107,9 @@ void add_sphere(inout Traced cone, VoxelGrid grid, vec4 value, float d) {
 Traced trace_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter) {
     Traced cone = Traced(vec3(0.0), 0.0, 0.0);
     if (hit_then_sample && exact_hits) {
-        VoxelHit hit = traverse(grid, apex + start_offset * grid.voxel * direction, direction);
+        VoxelHit hit = traverse(grid, apex + start_offset * grid.voxel * direction, direction, 0.0);
         if (hit.t < 0.0) return cone;
-        cone.colour = colour_of_side(grid, hit.voxel, hit.front);
+        cone.colour = colour_of_side(DVS_BASE, hit.voxel, met_front);
         cone.occlusion = 1.0;
         cone.ambient_occlusion = 1.0 / (1.0 + ambient_decay * 0.5 * diameter * hit.t / grid.voxel);
         return cone;

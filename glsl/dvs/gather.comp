@@ -1,7 +1,7 @@
 // Final gather of diffuse indirect light (DVS, section VIII.A): a set of cones over the hemisphere of each pixel's surface.
 // Writes the mean radiance from there, weighted by the cosine (E/π): times the albedo it is what the surface sends on.
 // a = 1 − δ, the ambient occlusion of the same cones (section VIII.B). At less than full resolution each texel takes the pixel at its middle.
-#include "dvs/cone.glsl"
+#include "dvs/walked_cone.glsl"
 #include "voxel/cone_set.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -15,6 +15,7 @@ uniform int cone_set = 0;       //! {six, six_tilted, spiral} six as published
 uniform int spiral_cones = 32;  //! [4, 128] cones of the set spiral
 uniform int interleave = 1;     //! [1, 8] (texels) neighbours in blocks of n × n take different cones; 1: all take the same
 uniform bool dithered_start = false; //! cones of neighbours in blocks of 4 × 4 begin at other places of their first step: noise instead of bands
+uniform int hit_lookup = 0;     //! static {voxels, map} voxels: the voxel that a ray hits says how it is lit; map: the ray walks over the reflective shadow maps, next to the surface and around where voxels block it
 uniform float aperture = 60.0;  //! [1, 90] (degrees) of each cone, from side to side
 
 void main() {
@@ -29,7 +30,7 @@ void main() {
     VoxelGrid grid = directional_grid();
     vec3 n = normalize(texelFetch(gbuffer_normal, pixel, 0).xyz);
     vec3 face = normalize(texelFetch(gbuffer_geometric_normal, pixel, 0).xyz);
-    vec3 apex = world_position(pixel, depth) + normal_offset * grid.voxel * face;
+    vec3 surface = world_position(pixel, depth), apex = surface + normal_offset * grid.voxel * face;
     mat3 frame = frame_around(n);
     float diameter = 2.0 * tan(radians(0.5 * aperture));
     float part = interleaved_part(texel, interleave);
@@ -37,7 +38,9 @@ void main() {
     vec4 sum = vec4(0.0);
     for (int i = 0; i < cone_count(cone_set, spiral_cones); ++i) {
         vec4 cone = cone_of(cone_set, spiral_cones, i, part);
-        Traced traced = trace_cone(grid, apex, frame * cone.xyz, diameter);
+        vec3 direction = frame * cone.xyz;
+        Traced traced = hit_lookup == 1 ? trace_walked_cone(grid, surface, face, apex, direction, diameter)
+                                        : trace_cone(grid, apex, direction, diameter);
         sum += cone.w * vec4(traced.colour, traced.ambient_occlusion);
     }
     imageStore(dvs_irradiance, texel, vec4(min(sum.rgb, vec3(65504.0)), 1.0 - sum.a));

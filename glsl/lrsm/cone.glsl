@@ -8,51 +8,32 @@
 #define SEE_SPHERE(at_hit, centre, t, diameter, alpha, level, share, light)
 #endif
 #include "lrsm/sample.glsl"
-#include "lrsm/map_walk.glsl"
-#include "voxel/cone.glsl"
+#include "voxel/exact_hit.glsl"
+#include "voxel/walk_to_hit.glsl"
 
 uniform bool hit_then_sample = false; //! the maps are looked up once a cone, where it is blocked
 uniform float hit_aperture = 2.0;     //! [0, 90] (degrees) hit_then_sample: of the cone that finds the hit
-uniform float hit_threshold = 0.5;   //! [0.05, 0.99] hit_then_sample: occlusion from which the cone counts as blocked
+uniform bool exact_hits = false;      //! static hit_then_sample: the hit is found from voxel to voxel instead of by a thin cone
 uniform float hit_radius = 1.5;       //! [0.25, 16] (voxels) hit_then_sample: radius of the sphere that is looked up
 
 uniform int near_spheres = 0;        //! [0, 8] hit_then_sample: spheres between the surface and where cones start, lit by the maps alone
 uniform float near_diameter = 0.5;   //! [0.05, 2] (voxels) of these spheres
 
-uniform int hit_lookup = 0;     //! {layers, map} hit_then_sample: layers: a sphere in the layers; map: the ray's own walk over the reflective shadow maps, next to the surface and around where voxels block it
-uniform float map_near = 2.0;   //! [0, 64] (voxels) hit_lookup map: how far the walk from the surface goes
-uniform float map_before = 1.5; //! [0, 8] (voxels) hit_lookup map: where the walk around a hit begins, before it
-uniform float map_after = 1.5;  //! [0, 8] (voxels) hit_lookup map: where it ends, beyond the hit
-uniform int map_tries = 4;      //! [1, 16] hit_lookup map: hits that may prove wrong (all is lit around them, so that nothing opaque can be there), and one more
+uniform int hit_lookup = 0; //! {layers, map} hit_then_sample: layers: a sphere in the layers; map: the ray's own walk over the reflective shadow maps, next to the surface and around where voxels block it
 
-// hit_lookup map: the ray from the surface itself, so that next to it nothing is passed over. Where voxels say that it is
-// blocked, the maps say exactly where, and by what that is lit; black where they show nothing.
-vec4 trace_walking_cone(VoxelGrid grid, vec3 surface, vec3 face, vec3 apex, vec3 direction) {
-    float same_place = 0.5 * grid.voxel, met, walked = map_near * grid.voxel;
-    vec3 light;
-    bool in_light;
-    if (map_near > 0.0 && walk_maps(surface, face, direction, 0.0, walked, same_place, met, light, in_light)) {
-        SEE_SPHERE(true, surface + met * direction, met, grid.voxel, 1.0, 0.0, 1.0, light);
-        return vec4(light, 1.0);
-    }
-    // A cone from an apex off the surface reaches a plane that faces the surface so much earlier than the ray from the
-    // surface itself.
-    float lag = normal_offset * grid.voxel / max(dot(face, direction), 0.25);
-    float start = max(start_offset, 1.0e-3) * grid.voxel;
-    if (map_near > 0.0 && in_light) start = max(start, walked);
-    for (int i = 0; i < map_tries; ++i) {
-        float hit = find_hit_from(grid, apex, direction, 2.0 * tan(radians(0.5 * hit_aperture)), hit_threshold, start);
-        if (hit < 0.0) return vec4(0.0);
-        float from = max(hit - map_before * grid.voxel, walked), to = max(hit + map_after * grid.voxel + lag, walked);
-        if (to <= walked) return vec4(0.0, 0.0, 0.0, 1.0);
-        if (walk_maps(surface, face, direction, from, to, same_place, met, light, in_light)) {
-            SEE_SPHERE(true, surface + met * direction, met, grid.voxel, 1.0, 0.0, 1.0, light);
-            return vec4(light, 1.0);
-        }
-        if (!in_light) return vec4(0.0, 0.0, 0.0, 1.0);
-        start = walked = to;
-    }
-    return vec4(0.0, 0.0, 0.0, 1.0);
+// Where voxels block the cone; below 0: nowhere. `came_in`, `leaves`: where the voxels that do begin and end along it.
+float find_lit_hit(VoxelGrid grid, vec3 apex, vec3 direction, float from, out float came_in, out float leaves) {
+    if (exact_hits) return find_exact_hit(grid, apex, direction, from, came_in, leaves);
+    came_in = find_hit_from(grid, apex, direction, 2.0 * tan(radians(0.5 * hit_aperture)), hit_threshold, from);
+    leaves = came_in;
+    return came_in;
+}
+
+Blocker find_blocker(VoxelGrid grid, vec3 apex, vec3 direction, float from) {
+    Blocker blocker;
+    float hit = find_lit_hit(grid, apex, direction, from, blocker.enters, blocker.leaves);
+    if (hit < 0.0) blocker.enters = -1.0;
+    return blocker;
 }
 
 // Radiance along the cone, and in a its occlusion. `diameter`: 2·tan(θ/2), metres a metre. The cone starts at `apex`, off
@@ -60,7 +41,12 @@ vec4 trace_walking_cone(VoxelGrid grid, vec3 surface, vec3 face, vec3 apex, vec3
 // the maps up there: what is lit and faces the surface counts, and blocks, by the share of the sphere that it covers.
 vec4 trace_lit_cone(VoxelGrid grid, vec3 surface, vec3 face, vec3 apex, vec3 direction, float diameter) {
     vec3 light = vec3(0.0);
-    if (hit_then_sample && hit_lookup == 1) return trace_walking_cone(grid, surface, face, apex, direction);
+    if (hit_then_sample && hit_lookup == 1) {
+        WalkedHit hit = walk_to_hit(grid, surface, face, apex, direction);
+        if (hit.t < 0.0) return vec4(0.0);
+        if (hit.met) SEE_SPHERE(true, surface + hit.t * direction, hit.t, grid.voxel, 1.0, 0.0, 1.0, hit.light);
+        return vec4(hit.light, 1.0);
+    }
     if (hit_then_sample) {
         float open = 1.0;
         for (int k = 0; k < near_spheres; ++k) {
@@ -75,7 +61,7 @@ vec4 trace_lit_cone(VoxelGrid grid, vec3 surface, vec3 face, vec3 apex, vec3 dir
             SEE_SPHERE(false, surface + t * direction, t, d, blocked, 0.0, open * blocked, open * sum);
             open *= 1.0 - blocked;
         }
-        float hit = find_hit(grid, apex, direction, 2.0 * tan(radians(0.5 * hit_aperture)), hit_threshold);
+        float came_in, leaves, hit = find_lit_hit(grid, apex, direction, max(start_offset, 1.0e-3) * grid.voxel, came_in, leaves);
         if (hit < 0.0) return vec4(light, 1.0 - open);
         float radius = max(hit_radius * grid.voxel, 0.5 * diameter * hit);
         for (int view = 0; view < views.length(); ++view)

@@ -1,12 +1,11 @@
 // How many texels of the reflective shadow maps each layer holds, so that empty layers need no storage.
-#include "lib/shadow.glsl"
+#include "surface/rsm_views.glsl"
 #include "lrsm/partition.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
 uniform sampler2DArray rsm_radiance;
 uniform sampler2DArray rsm_depth;
-layout(std430) readonly buffer rsm_views { ShadowView views[]; };
 layout(std430) readonly buffer lrsm_partitions { Partition partitions[]; };
 layout(std430) buffer lrsm_counts { uint counts[]; };
 

@@ -1,14 +1,13 @@
 // Histograms of one light's reflective shadow map, for adaptive partitions: 256 bins of linear view depth (over the
 // scene's extent along the view), then 64 of ⟨n·l⟩. Sums are integers: the order of the additions does not matter.
 #include "lib/frame.glsl"
-#include "lib/shadow.glsl"
+#include "surface/rsm_views.glsl"
 #include "lrsm/view_extent.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
 uniform sampler2DArray rsm_radiance;
 uniform sampler2DArray rsm_depth;
-layout(std430) readonly buffer rsm_views { ShadowView views[]; };
 layout(std430) buffer lrsm_histogram { uint bins[]; };
 
 const int k_depth_bins = 256;

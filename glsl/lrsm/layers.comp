@@ -3,7 +3,7 @@
 // merged. What is stored is weighted by opacity α, the share of the block's texels in the layer (Eq. 13), except that α
 // of texels without a surface is 0: radiance·α and ⟨n·l⟩·α, n·α and α, then z·α, z²·α and α with z warped to the layer's
 // range.
-#include "lib/shadow.glsl"
+#include "surface/rsm_views.glsl"
 #include "lrsm/partition.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -11,7 +11,6 @@ layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2DArray rsm_radiance;
 uniform sampler2DArray rsm_normal;
 uniform sampler2DArray rsm_depth;
-layout(std430) readonly buffer rsm_views { ShadowView views[]; };
 layout(std430) readonly buffer lrsm_partitions { Partition partitions[]; };
 layout(std430) readonly buffer lrsm_table { int table[]; };
 layout(FORMAT_lrsm_radiance) writeonly uniform image2DArray lrsm_radiance;

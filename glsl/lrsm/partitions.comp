@@ -3,13 +3,12 @@
 // one cut after the other, from the histogram); cuts that gain less than `worthwhile` of the whole variance are not made,
 // so a flat scene gets one layer. One invocation a light.
 #include "lib/frame.glsl"
-#include "lib/shadow.glsl"
+#include "surface/rsm_views.glsl"
 #include "lrsm/partition.glsl"
 #include "lrsm/view_extent.glsl"
 
 layout(local_size_x = 1) in;
 
-layout(std430) readonly buffer rsm_views { ShadowView views[]; };
 layout(std430) readonly buffer lrsm_histogram { uint bins[]; };  //! optional
 layout(std430) writeonly buffer lrsm_partitions { Partition partitions[]; };
 

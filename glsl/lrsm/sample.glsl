@@ -8,14 +8,13 @@
 #ifndef SEE_LAYER // what a view of the cones is told of each layer that light is taken from
 #define SEE_LAYER(level)
 #endif
-#include "lib/shadow.glsl"
+#include "surface/rsm_views.glsl"
 #include "lrsm/partition.glsl"
 
 uniform sampler2DArray lrsm_radiance; // R·α, ⟨n·l⟩·α
 uniform sampler2DArray lrsm_normal;   // n·α, α
 uniform sampler2DArray lrsm_depth;    // z·α, z²·α, α; z warped to its layer
 uniform sampler2D lrsm_normal_table;  // Φ over [−4, 4]
-layout(std430) readonly buffer rsm_views { ShadowView views[]; };
 layout(std430) readonly buffer lrsm_partitions { Partition partitions[]; };
 layout(std430) readonly buffer lrsm_table { int table[]; };
 

@@ -86,10 +86,13 @@ PassNode* GraphModel::find_node(const std::string& id) const {
     return nullptr;
 }
 
-Defines GraphModel::static_values(const PassNode& node) {
+Defines GraphModel::static_values(const PassNode& node) const {
     Defines values;
-    for (const Parameter& parameter : node.parameters.all()) {
-        if (parameter.info.is_static) values[parameter.info.name] = static_literal(parameter.info, parameter.value);
+    const PassNode* shared = find_node(node.entry.params_of);
+    for (const PassNode* of : {&node, shared}) { // what is shared wins
+        if (!of) continue;
+        for (const Parameter& parameter : of->parameters.all())
+            if (parameter.info.is_static) values[parameter.info.name] = static_literal(parameter.info, parameter.value);
     }
     return values;
 }
@@ -100,7 +103,7 @@ void GraphModel::scan(PassNode& node, const Defines& formats) {
     for (const auto& program : node.programs) {
         program->scan(formats, static_values(node));
         for (const ParameterInfo& info : program->parameters()) {
-            if (!info.is_static && shared && shared->parameters.find(info.name)) continue;
+            if (shared && shared->parameters.find(info.name)) continue;
             node.parameters.declare_shader_parameter(info);
             names.push_back(info.name);
         }

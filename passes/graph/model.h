@@ -52,8 +52,8 @@ class GraphModel {
 
     /// Reads a node's shader files again; its //! parameters and slots follow.
     void scan(PassNode& node, const Defines& formats = {});
-    /// What its shaders' text asks to be compiled with: static parameters as GLSL.
-    static Defines static_values(const PassNode& node);
+    /// What its shaders' text asks to be compiled with: static parameters as GLSL, its own and those of `params_of`.
+    Defines static_values(const PassNode& node) const;
 
     /// Throws Error with all problems (a slot without a source, a cycle, a bad size …).
     Plan plan(const SceneFacts& facts, glm::ivec2 size) const;

@@ -143,15 +143,33 @@ TEST_F(Gather, OfAUniformlyLitRoomIsItsRadiance) {
     EXPECT_LT(h.brightest, 1.01);
 }
 
+/// From voxel to voxel instead of by thin cones.
+TEST_F(Gather, OfAUniformlyLitRoomByExactHitsIsItsRadiance) {
+    for (bool leaves : {true, false}) {
+        Sets exact = k_tuned;
+        exact.insert(exact.end(), {{"gather.exact_hits", "true"}, {"gather.start_offset", "0"}});
+        Gathered g = gather("", leaves, exact);
+        note(leaves ? "by exact hits" : "the same, isotropic", g);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(g.mean[c] / k_radiance[c], 1, 0.01);
+        EXPECT_GT(g.darkest, leaves ? 0.9 : 0.75) << "means know no side: next to a corner they block before its wall";
+        EXPECT_LT(g.brightest, 1.01);
+        EXPECT_LT(g.open, 2e-3);
+    }
+}
+
 /// By a walk over the maps: each ray finds the wall itself, corners included.
 TEST_F(Gather, OfAUniformlyLitRoomByWalksIsItsRadiance) {
-    Sets walking = k_tuned;
-    walking.insert(walking.end(), {{"gather.hit_lookup", "map"}, {"gather.normal_offset", "0.5"}});
-    Gathered g = gather("", true, walking);
-    note("by walks", g);
-    for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(g.mean[c] / k_radiance[c], 1, 0.02);
-    EXPECT_LT(g.brightest, 1.01);
+    for (const char* exact : {"false", "true"}) {
+        Sets walking = k_tuned;
+        walking.insert(walking.end(),
+                       {{"gather.hit_lookup", "map"}, {"gather.normal_offset", "0.5"}, {"gather.exact_hits", exact}});
+        Gathered g = gather("", true, walking);
+        note(std::string(exact) == "true" ? "by walks to exact hits" : "by walks", g);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(g.mean[c] / k_radiance[c], 1, 0.02);
+        EXPECT_LT(g.brightest, 1.01);
+    }
 }
 
 /// As published it loses light (N, V and α all darken): measured, and never more than there is.

@@ -56,9 +56,7 @@ std::vector<Crossing> crossings(const Scene& scene, glm::dvec3 origin, glm::dvec
 class MapWalk : public SceneGraphTest {
   protected:
     void compare(const Light& light, double least_share) {
-        shader("test/walk.comp", fmt::format(R"(#include "lib/shadow.glsl"
-layout(std430) readonly buffer rsm_views {{ ShadowView views[]; }};
-#include "lrsm/map_walk.glsl"
+        shader("test/walk.comp", fmt::format(R"(#include "surface/map_walk.glsl"
 layout(local_size_x = 64) in;
 layout(FORMAT_test_result) writeonly uniform image2D test_result;
 void main() {{

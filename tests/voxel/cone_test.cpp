@@ -57,7 +57,7 @@ void main() {{
 }}
 )",
                                              k_hash, fill));
-        shader("test/sample.comp", fmt::format(R"(#include "voxel/cone.glsl"
+        shader("test/sample.comp", fmt::format(R"(#include "voxel/exact_hit.glsl"
 layout(local_size_x = 64) in;
 layout(FORMAT_test_result) writeonly uniform image2D test_result;
 {}
@@ -175,11 +175,14 @@ TEST_F(Cones, NothingBlocksInAnEmptyGrid) {
             glm::vec4 result : samples(
                 256, "0.0",
                 R"(vec3 apex = vec3(hashed(uint(i) * 8u + 2u), hashed(uint(i) * 8u + 3u), hashed(uint(i) * 8u + 4u)) * 2.0 - 1.0;
+                    float came_in, leaves;
                     result = vec4(find_hit(grid, apex, on_sphere(i), 0.05, 0.5),
-                                  sphere_occlusion(grid, apex, on_sphere(i), 6.0 * hashed(uint(i) * 8u + 5u)), 0.0, 0.0);)",
+                                  sphere_occlusion(grid, apex, on_sphere(i), 6.0 * hashed(uint(i) * 8u + 5u)),
+                                  find_exact_hit(grid, apex, on_sphere(i), 0.0, came_in, leaves), 0.0);)",
                 leaves)) {
             EXPECT_LT(result.x, 0);
             EXPECT_EQ(result.y, 0);
+            EXPECT_LT(result.z, 0);
         }
     }
 }
@@ -214,5 +217,74 @@ TEST_F(Cones, EveryThinConeIsBlockedWhereItMeetsAThinWall) {
         EXPECT_EQ(missed, 0);
         // The linear filter reaches a voxel from the middle, and no step is longer than half a voxel where it does.
         EXPECT_LT(worst, 1);
+    }
+}
+
+/// Exact hits in the same room: all of them, and inside the wall's own voxels.
+TEST_F(Cones, EveryExactHitLiesInsideAThinWall) {
+    const char* const k_room =
+        "any(equal(v, ivec3(3))) || any(equal(v, ivec3(28))) ? (all(greaterThanEqual(v, ivec3(3))) && "
+        "all(lessThanEqual(v, ivec3(28))) ? 1.0 : 0.0) : 0.0";
+    for (bool leaves : {false, true}) {
+        std::vector<glm::vec4> got = samples(
+            2048, k_room,
+            R"(vec3 apex = (vec3(hashed(uint(i) * 8u + 2u), hashed(uint(i) * 8u + 3u), hashed(uint(i) * 8u + 4u)) - 0.5) * 1.2;
+               vec3 d = on_sphere(i);
+               float came_in, leaves, hit = find_exact_hit(grid, apex, d, 0.0, came_in, leaves);
+               vec3 at = abs(apex + hit * d), in_at = abs(apex + came_in * d);
+               result = vec4(hit, max(at.x, max(at.y, at.z)) / grid.voxel, max(in_at.x, max(in_at.y, in_at.z)) / grid.voxel,
+                             leaves - came_in);)",
+            leaves);
+        for (const glm::vec4& result : got) {
+            ASSERT_GE(result.x, 0) << (leaves ? "six leaves" : "isotropic");
+            // The wall's voxels lie from 12 to 13 voxels off the grid's middle.
+            EXPECT_GT(result.y, 12 - 1e-2);
+            EXPECT_LT(result.y, 13 + 1e-2);
+            EXPECT_NEAR(result.z, 12, 1e-2) << "where the ray came into the wall";
+            EXPECT_GT(result.w, 0);
+        }
+    }
+}
+
+/// A sheet that blocks along x alone is met in the middle of its voxels at every angle; from behind it is not there.
+TEST_F(Cones, ExactHitsLieHalfAVoxelDeepAlongTheLeafThatBlocks) {
+    std::vector<glm::vec4> got = samples(
+        2048, "v.x == 20 && leaf == 1 ? 1.0 : 0.0", // leaf 1 faces −x: it blocks what goes along +x
+        R"(vec3 apex = (vec3(hashed(uint(i) * 8u + 2u), hashed(uint(i) * 8u + 3u), hashed(uint(i) * 8u + 4u)) - 0.5) * 0.5;
+           vec3 d = on_sphere(i);
+           float came_in, leaves, hit = find_exact_hit(grid, apex, d, 0.0, came_in, leaves);
+           vec3 at = (apex + (hit < 0.0 ? 0.0 : hit) * d) / grid.voxel;
+           result = vec4(hit, at.x, d.x, 0.0);)",
+        true);
+    int met = 0;
+    for (const glm::vec4& result : got) {
+        if (result.x < 0) {
+            EXPECT_LT(result.z, 0.5) << "the sheet reaches over the grid: who goes toward it meets it";
+            continue;
+        }
+        ++met;
+        EXPECT_GT(result.z, 0) << "met from behind";
+        EXPECT_NEAR(result.y, 4.5, 2e-2) << "voxel 20 lies from 4 to 5 voxels off the middle";
+    }
+    EXPECT_GT(met, 500);
+}
+
+/// Whoever goes on from beyond a sheet of voxels meets the next one.
+TEST_F(Cones, ExactHitsGoOnFromWhereTheyAreTold) {
+    std::vector<glm::vec4> got = samples(
+        512, "v.x == 10 || v.x == 24 ? 1.0 : 0.0",
+        R"(vec3 d = normalize(vec3(1.0, 0.5 * hashed(uint(i) * 8u + 2u) - 0.25, 0.5 * hashed(uint(i) * 8u + 3u) - 0.25));
+           vec3 apex = vec3(-0.9, 0.0, 0.0);
+           float came_in, leaves, first = find_exact_hit(grid, apex, d, 0.0, came_in, leaves);
+           float second = find_exact_hit(grid, apex, d, first + 2.0 * grid.voxel, came_in, leaves);
+           float third = find_exact_hit(grid, apex, d, second + 2.0 * grid.voxel, came_in, leaves);
+           result = vec4((apex + first * d).x, (apex + second * d).x, third, grid.voxel);)",
+        false);
+    for (const glm::vec4& result : got) {
+        EXPECT_GT(result.x / result.w, -6.01);
+        EXPECT_LT(result.x / result.w, -4.99);
+        EXPECT_GT(result.y / result.w, 7.99);
+        EXPECT_LT(result.y / result.w, 9.01);
+        EXPECT_LT(result.z, 0);
     }
 }

@@ -1,14 +1,14 @@
-#ifndef LRSM_MAP_WALK_GLSL
-#define LRSM_MAP_WALK_GLSL
+#ifndef SURFACE_MAP_WALK_GLSL
+#define SURFACE_MAP_WALK_GLSL
 // Where a ray meets what the lights reach: it walks over the texels of a reflective shadow map, as a ray in screen space
 // walks over the depth buffer. Each texel is a piece of plane: its centre's position and its normal. A ray that comes
 // through that plane from its lit side meets it and sees its light; one that comes through from behind is blocked by it.
 // So a thin sheet that is lit on its other side blocks. What no light reaches is in no map: voxels tell of it.
-#include "lib/shadow.glsl"
+#include "surface/rsm_views.glsl"
 
-uniform sampler2DArray rsm_radiance;
-uniform sampler2DArray rsm_normal;
-uniform sampler2DArray rsm_depth;
+uniform sampler2DArray rsm_radiance; //! optional
+uniform sampler2DArray rsm_normal;   //! optional
+uniform sampler2DArray rsm_depth;    //! optional
 
 uniform float map_tolerance = 0.5; //! [0.05, 8] (texels) hit_lookup map: how near to a texel's plane a ray has met it, and how far off the receiver's own plane a texel must lie
 uniform int map_steps = 64;        //! [4, 512] hit_lookup map: texels that a walk visits, at most

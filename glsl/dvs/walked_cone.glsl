@@ -1,0 +1,47 @@
+#ifndef DVS_WALKED_CONE_GLSL
+#define DVS_WALKED_CONE_GLSL
+// A ray whose direct light comes from reflective shadow maps (voxel/walk_to_hit.glsl): what the voxels cannot resolve is
+// resolved where the lights see it. What light bounced between voxels before, and what they emit, is the voxel's at the hit.
+#include "dvs/cone.glsl"
+#include "voxel/walk_to_hit.glsl"
+
+uniform sampler3D dvs_radiance;    //! optional
+uniform sampler3D voxels_emission; //! optional
+
+VoxelHit blocking_voxel; // the last one that find_blocker found
+
+Blocker find_blocker(VoxelGrid grid, vec3 apex, vec3 direction, float from) {
+    blocking_voxel = traverse(grid, apex, direction, from);
+    return Blocker(blocking_voxel.t, blocking_voxel.leaves);
+}
+
+// What a voxel's side sends on but for what the lights' own light makes it send.
+vec3 colour_without_lights(ivec3 voxel, bool front) {
+    vec3 colour = max(colour_of_side(dvs_base, voxel, front) - colour_of_side(dvs_radiance, voxel, front), vec3(0.0));
+    if (textureSize(voxels_emission, 0).x > 1) colour += texelFetch(voxels_emission, voxel, 0).rgb; // 1: the neutral one
+    return colour;
+}
+
+Traced trace_walked_cone(VoxelGrid grid, vec3 surface, vec3 face, vec3 apex, vec3 direction, float diameter) {
+    WalkedHit hit = walk_to_hit(grid, surface, face, apex, direction);
+    Traced cone = Traced(vec3(0.0), 0.0, 0.0);
+    if (hit.t < 0.0) return cone;
+    ivec3 voxel = blocking_voxel.voxel;
+    uint flags = 0u;
+    // What a map's texel shows lies beside its voxel where that ends nearer than a texel is exact.
+    const float k_beside[5] = float[](0.0, 0.5, -0.5, 1.0, -1.0);
+    for (int i = 0; hit.met && i < 5 && flags == 0u; ++i) {
+        vec3 at = (surface + hit.t * direction - grid.origin) / grid.voxel + k_beside[i] * direction;
+        voxel = clamp(ivec3(floor(at)), ivec3(0), ivec3(grid.resolution - 1));
+        flags = texelFetch(voxels_flags, voxel, 0).r;
+    }
+    if (!hit.met) flags = texelFetch(voxels_flags, voxel, 0).r;
+    cone.colour = hit.light;
+    if (flags != 0u)
+        cone.colour += colour_without_lights(voxel, dot(front_of(texelFetch(voxels_normal, voxel, 0).xyz, flags >> 2), direction) <= 0.0);
+    cone.occlusion = 1.0;
+    cone.ambient_occlusion = 1.0 / (1.0 + ambient_decay * 0.5 * diameter * hit.t / grid.voxel);
+    return cone;
+}
+
+#endif

@@ -1,0 +1,56 @@
+#ifndef VOXEL_WALK_TO_HIT_GLSL
+#define VOXEL_WALK_TO_HIT_GLSL
+// Where a ray from a surface is blocked, and how that is lit: voxels say that something is there, reflective shadow maps say
+// exactly where, and what it sends back. Next to the surface, where voxels cannot tell what is near from the surface itself,
+// the ray walks over the maps alone. Whoever includes this file says what the voxels block.
+#include "surface/map_walk.glsl"
+#include "voxel/cone_steps.glsl"
+
+uniform float map_near = 2.0;   //! [0, 64] (voxels) hit_lookup map: how far the walk from the surface goes
+uniform float map_before = 1.5; //! [0, 8] (voxels) hit_lookup map: where the walk around a hit begins, before it
+uniform float map_after = 1.5;  //! [0, 8] (voxels) hit_lookup map: where it ends, beyond the hit
+uniform int map_tries = 4;      //! [1, 16] hit_lookup map: hits that may prove wrong (all is lit around them, so that nothing opaque can be there), and one more
+
+// Where voxels block a ray: between two distances, in metres. enters < 0: nowhere.
+struct Blocker {
+    float enters;
+    float leaves;
+};
+
+// The first one from `from` metres on.
+Blocker find_blocker(VoxelGrid grid, vec3 apex, vec3 direction, float from);
+
+struct WalkedHit {
+    float t;    // metres from the surface; below 0: nothing blocks
+    bool met;   // by the maps; else by voxels alone, which no light reaches
+    vec3 light; // that it sends back, of what the maps hold
+};
+
+// The ray starts at `surface`, whose plane faces `face`; the voxels' ray at `apex`, normal_offset voxels off it.
+WalkedHit walk_to_hit(VoxelGrid grid, vec3 surface, vec3 face, vec3 apex, vec3 direction) {
+    float same_place = 0.5 * grid.voxel, met, walked = map_near * grid.voxel;
+    vec3 light;
+    bool in_light;
+    if (map_near > 0.0 && walk_maps(surface, face, direction, 0.0, walked, same_place, met, light, in_light))
+        return WalkedHit(met, true, light);
+    // A ray from an apex off the surface reaches a plane that faces the surface so much earlier than the ray from the
+    // surface itself.
+    float lag = normal_offset * grid.voxel / max(dot(face, direction), 0.25);
+    float start = max(start_offset, 1.0e-3) * grid.voxel;
+    if (map_near > 0.0 && in_light) start = max(start, walked);
+    Blocker blocker;
+    for (int i = 0; i < map_tries; ++i) {
+        blocker = find_blocker(grid, apex, direction, start);
+        if (blocker.enters < 0.0) return WalkedHit(-1.0, false, vec3(0.0));
+        float from = max(blocker.enters - map_before * grid.voxel, walked);
+        float to = max(blocker.leaves + map_after * grid.voxel + lag, walked);
+        if (to <= walked) break;
+        if (walk_maps(surface, face, direction, from, to, same_place, met, light, in_light))
+            return WalkedHit(met, true, light);
+        if (!in_light) break;
+        start = walked = to;
+    }
+    return WalkedHit(blocker.enters, false, vec3(0.0));
+}
+
+#endif
