@@ -41,10 +41,11 @@ nlohmann::ordered_json figures_json(const ErrorFigures& f) {
 }
 
 std::string comparison_json(const CompareArguments& arguments, const LayerComparison& comparison,
-                            const std::vector<SurfaceComparison>& surfaces) {
+                            const std::vector<SurfaceComparison>& surfaces, int pixels_a_side) {
     nlohmann::ordered_json json;
     json["image"] = arguments.image;
     json["reference"] = arguments.reference;
+    json["means_over_pixels"] = pixels_a_side * pixels_a_side;
     json["edges_masked"] = comparison.edges_masked;
     json["kept_pixels"] = comparison.mask.share();
     for (const PartComparison& part : comparison.parts) {
@@ -63,7 +64,7 @@ std::string comparison_json(const CompareArguments& arguments, const LayerCompar
     return json.dump(2);
 }
 
-void print_table(const LayerComparison& comparison, const std::vector<SurfaceComparison>& surfaces) {
+void print_table(const LayerComparison& comparison, const std::vector<SurfaceComparison>& surfaces, int pixels_a_side) {
     fmt::print("{:28} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8} {:>7} {:>7}\n", "part", "mean",
                "reference", "bias %", "RMSE %", "noise %", "w/o noise", "relMSE", "SMAPE", "p99", "SSIM", "FLIP");
     auto row = [](const std::string& name, const ErrorFigures& f) {
@@ -86,13 +87,19 @@ void print_table(const LayerComparison& comparison, const std::vector<SurfaceCom
     fmt::print("{} of the pixels count{}. RMSE and noise are relative to the reference's mean.\n",
                fmt::format("{:.1f} %", 100 * comparison.mask.share()),
                comparison.edges_masked ? ", away from edges" : "; no edge mask");
+    if (pixels_a_side > 1)
+        fmt::print(
+            "The image is {0} times as wide and high as the reference: compared are means over {0} x {0} pixels.\n",
+            pixels_a_side);
 }
 
 int compare(const CompareArguments& arguments) {
     if (!arguments.heatmap.empty()) check_output_folder(arguments.heatmap);
     bool image_display = false, reference_display = false;
-    const LayeredImage image = read_picture(arguments.image, image_display);
+    LayeredImage image = read_picture(arguments.image, image_display);
     const LayeredImage reference = read_picture(arguments.reference, reference_display);
+    int pixels_a_side = 1;
+    image = averaged_to_size_of(reference, std::move(image), &pixels_a_side);
     if (image_display != reference_display) {
         throw Error("'" + arguments.image + "' and '" + arguments.reference +
                     "': one holds display values and the other linear radiance; compare two of a kind");
@@ -116,9 +123,9 @@ int compare(const CompareArguments& arguments) {
     }
     // The figures first: a false-colour picture that cannot be written does not cost them.
     if (arguments.json)
-        fmt::print("{}\n", comparison_json(arguments, comparison, surfaces));
+        fmt::print("{}\n", comparison_json(arguments, comparison, surfaces, pixels_a_side));
     else
-        print_table(comparison, surfaces);
+        print_table(comparison, surfaces, pixels_a_side);
     if (!arguments.heatmap.empty()) {
         // The picture as a whole where there is one, unless a part was asked for.
         std::string part = comparison.parts.front().part;
@@ -138,7 +145,10 @@ int compare(const CompareArguments& arguments) {
 void add_compare_command(CLI::App& app, CommandFunction& chosen) {
     auto* command = app.add_subcommand("compare", "tell how far a picture is from a reference, part by part");
     auto a = std::make_shared<CompareArguments>();
-    command->add_option("image", a->image, "an .exr of named parts, or any picture")->required();
+    command
+        ->add_option("image", a->image,
+                     "an .exr of named parts, or any picture; a whole multiple of the reference's size is averaged")
+        ->required();
     command->add_option("reference", a->reference, "what it is compared with")->required();
     command
         ->add_option("--resource", a->parts,

@@ -17,7 +17,7 @@ uniform sampler3D dvs_previous;
 #else
 #define DVS_BASE dvs_base
 #endif
-uniform sampler3D dvs_directional; // six tiles; from the base level on, or from half the resolution
+uniform sampler3D dvs_directional; //! optional (exact hits do without) six tiles; from the base level on, or from half the resolution
 
 uniform int direction_weights = 0;    //! {squared, absolute} weights of the three volumes: d_k² sums to 1 (as usual); their absolute values are how directional leaves add up
 uniform float ambient_decay = 0.1;    //! [0, 10] (1/voxel) λ, how fast occlusion fades with the cone's radius

@@ -177,6 +177,39 @@ std::vector<SurfaceComparison> compare_surfaces(const LayeredImage& test, const 
     return surfaces;
 }
 
+static Image averaged(const Image& image, int k, bool mean) {
+    Image small(image.width / k, image.height / k, image.channels);
+    for (int y = 0; y < small.height; ++y) {
+        for (int x = 0; x < small.width; ++x) {
+            for (int c = 0; c < image.channels; ++c) {
+                double sum = 0;
+                for (int j = 0; j < k; ++j)
+                    for (int i = 0; i < k; ++i)
+                        sum += image.at(x * k + i, y * k + j)[c];
+                small.at(x, y)[c] = mean ? float(sum / (k * k)) : image.at(x * k + k / 2, y * k + k / 2)[c];
+            }
+        }
+    }
+    return small;
+}
+
+LayeredImage averaged_to_size_of(const LayeredImage& reference, LayeredImage image, int* k) {
+    if (k) *k = 1;
+    if (reference.layers.empty() || image.layers.empty()) return image;
+    const Image& wanted = reference.layers.begin()->second;
+    const Image& given = image.layers.begin()->second;
+    const int times = wanted.width > 0 ? given.width / wanted.width : 0;
+    for (const auto& [name, layer] : image.layers)
+        if (times < 2 || layer.width != times * wanted.width || layer.height != times * wanted.height) return image;
+    for (auto& [name, layer] : image.layers)
+        layer = averaged(layer, times, !name.starts_with("gbuffer."));
+    // The noise that it tells of itself was that of its own pixels.
+    nlohmann::json json = metadata_of(image);
+    if (json.is_object() && json.erase("noise") > 0) image.metadata = json.dump();
+    if (k) *k = times;
+    return image;
+}
+
 LayeredImage read_picture(const std::filesystem::path& path, bool& display) {
     display = false;
     std::string extension = path.extension().string();

@@ -62,6 +62,11 @@ bool is_radiance(const std::string& part);
 /// RGBA against RGB: the alpha of a GPU's texture is no part of the picture, and is dropped.
 void drop_lone_alpha(Image& a, Image& b);
 
+/// A picture of k times the reference's width and height (k a whole number above 1), as means over k × k pixels: of the
+/// area that the reference's pixels cover, like they themselves. What is no light (gbuffer.*) is taken from the pixel
+/// at the middle. Any other picture stays as it is. `k`, if given, becomes that number.
+LayeredImage averaged_to_size_of(const LayeredImage& reference, LayeredImage image, int* k = nullptr);
+
 /// Reads a picture to compare: .exr as it is; any 8-bit format as the linear values of its sRGB (layer ""); .hdr.
 /// `display` tells whether the values are display values.
 LayeredImage read_picture(const std::filesystem::path& path, bool& display);

@@ -77,9 +77,9 @@ class VoxelBouncePass : public Pass {
             create_radiance(d, "dvs.previous", "(dvs.radiance.depth / dvs.radiance.width)", false);
             d.writes("dvs.previous", Usage::image); // by a copy
             d.uses("bounce_again");
+            filter_.declare(d); // of what the bounce before sends
         }
         d.reads("voxels.counts", Usage::indirect);
-        filter_.declare(d);
     }
     void execute(PassContext& c) override {
         glm::ivec3 size = c.texture("dvs.bounced").desc().size;

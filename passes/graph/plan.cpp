@@ -110,6 +110,10 @@ class Planner {
         }
         for (const auto& [slot, bind] : node.entry.bind) {
             bool known = std::any_of(pass.uses.begin(), pass.uses.end(), [&](auto& u) { return u.slot == slot; });
+            // Slots of programs that are not needed at these parameters may be bound all the same.
+            for (const auto& program : node.programs)
+                for (const ShaderSlot& of : program->slots())
+                    known = known || of.name == slot;
             if (known) continue;
             std::vector<std::string> names;
             for (const SlotUse& use : pass.uses)

@@ -123,3 +123,33 @@ TEST(Comparison, ReadsPicturesOfAllKinds) {
     EXPECT_EQ(compare_layers(read, read, options).parts.size(), 1u);
     std::filesystem::remove_all(folder);
 }
+
+/// The reference covers the areas of its pixels: a picture of more pixels is compared by its means over these.
+TEST(Comparison, APictureOfAMultipleSizeIsAveraged) {
+    LayeredImage large;
+    Image& direct = large.layers["out.direct"] = Image(36, 24, 3);
+    Image& normal = large.layers["gbuffer.normal"] = Image(36, 24, 3);
+    for (int y = 0; y < 24; ++y) {
+        for (int x = 0; x < 36; ++x) {
+            direct.at(x, y)[0] = float(x / 3 + 12 * (y / 3)) + float(x % 3 + y % 3) - 2; // 0 on average
+            normal.at(x, y)[0] = float(x + 36 * y);
+        }
+    }
+    large.metadata = R"({"camera_position":[0,5,5],"noise":{"out.direct":{"rms":0.3}}})";
+    int k = 0;
+    LayeredImage small = averaged_to_size_of(reference(), large, &k);
+    EXPECT_EQ(k, 3);
+    ASSERT_EQ(small.layers["out.direct"].width, 12);
+    ASSERT_EQ(small.layers["out.direct"].height, 8);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 12; ++x) {
+            EXPECT_NEAR(small.layers["out.direct"].at(x, y)[0], float(x + 12 * y), 1e-4);
+            EXPECT_EQ(small.layers["gbuffer.normal"].at(x, y)[0], float(3 * x + 1 + 36 * (3 * y + 1)))
+                << "a normal is no mean";
+        }
+    EXPECT_EQ(small.metadata.find("noise"), std::string::npos);
+    EXPECT_NE(small.metadata.find("camera_position"), std::string::npos);
+    large.layers["out.direct"] = Image(36, 16, 3); // no multiple of the same number both ways: left alone
+    EXPECT_EQ(averaged_to_size_of(reference(), large, &k).layers["out.direct"].width, 36);
+    EXPECT_EQ(k, 1);
+}
