@@ -17,8 +17,6 @@ uniform sampler3D dvs_previous;
 #else
 #define DVS_BASE dvs_base
 #endif
-uniform sampler3D dvs_directional; //! optional (exact hits do without) six tiles; from the base level on, or from half the resolution
-
 uniform int direction_weights = 0;    //! {squared, absolute} weights of the three volumes: d_k² sums to 1 (as usual); their absolute values are how directional leaves add up
 uniform float ambient_decay = 0.1;    //! [0, 10] (1/voxel) λ, how fast occlusion fades with the cone's radius
 uniform bool hit_then_sample = false; //! static the colour is looked up once a cone, where it is blocked
@@ -27,16 +25,33 @@ uniform float hit_aperture = 2.0;     //! [0, 90] (degrees) hit_then_sample: of 
 uniform float hit_threshold = 0.5;    //! [0.05, 0.99] hit_then_sample: occlusion from which the cone counts as blocked
 uniform float hit_radius = 1.0;       //! [0.25, 16] (voxels) hit_then_sample: radius of the sphere that is looked up
 
+#if hit_then_sample
+#if exact_hits
+#define DVS_WITHOUT_DIRECTIONS // no directional volume is read, so that none need be there
+#endif
+#endif
+#ifndef DVS_WITHOUT_DIRECTIONS
+uniform sampler3D dvs_directional; // six tiles; from the base level on, or from half the resolution
+#endif
+
 float start_share = 0.0; // how much of its first step a cone leaves out
 
 VoxelGrid directional_grid() {
-    int size = textureSize(dvs_base, 0).x, tile = textureSize(dvs_directional, 0).z;
+    int size = textureSize(dvs_base, 0).x;
+#ifdef DVS_WITHOUT_DIRECTIONS
+    return voxel_grid(size, 1, 1, 0);
+#else
+    int tile = textureSize(dvs_directional, 0).z;
     bool leaves = tile == size;
     int levels = textureQueryLevels(dvs_directional);
     return voxel_grid(size, leaves ? 6 : 1, leaves ? levels : levels + 1, 4);
+#endif
 }
 
 vec4 directional_value(VoxelGrid grid, vec3 at, vec3 direction, float level) {
+#ifdef DVS_WITHOUT_DIRECTIONS
+    return vec4(0.0);
+#else
     int size = textureSize(dvs_directional, 0).z;
     // Inside its own tile: half a voxel of the coarser of the two mips away from the next one.
     float margin = min(0.5 * exp2(ceil(level)) / float(size), 0.5);
@@ -49,6 +64,7 @@ vec4 directional_value(VoxelGrid grid, vec3 at, vec3 direction, float level) {
         sum += weight[axis] * textureLod(dvs_directional, (inside + tile) / vec3(2.0, 3.0, 1.0), level);
     }
     return sum.a > 1.0 ? sum / sum.a : sum;
+#endif
 }
 
 // The front sides of the radiance volume.

@@ -152,14 +152,25 @@ class Expander {
         } else if (directive.starts_with("line")) {
             emit("//", file, number); // would spoil the line table
         } else {
-            follow_condition(directive);
-            emit(line, file, number);
+            std::string told = with_static_value(directive);
+            follow_condition(told);
+            emit(told == directive ? line : "#" + told, file, number);
         }
     }
 
-    /// Follows #if 0, #if 1, #ifdef and #ifndef over the names that the text itself defines, so that slots and
-    /// parameters behind them are known to be there or not. Other conditions (#if) are left open: their branches all
-    /// count.
+    /// "#if name" and "#if !name" over a //! static bool become #if 1 or #if 0: what is behind them is known, too.
+    std::string with_static_value(const std::string& directive) const {
+        static const std::regex form(R"(if\s+(!?)\s*(\w+)\s*(//.*)?)");
+        std::smatch match;
+        if (!std::regex_match(directive, match, form)) return directive;
+        auto value = static_bools_.find(match[2]);
+        if (value == static_bools_.end()) return directive;
+        return value->second != (match[1] == "!") ? "if 1" : "if 0";
+    }
+
+    /// Follows #if 0, #if 1 (and so #if over a //! static bool), #ifdef and #ifndef over the names that the text itself
+    /// defines, so that slots and parameters behind them are known to be there or not. Other conditions (#if) are left
+    /// open: their branches all count.
     void follow_condition(const std::string& directive) {
         static const std::regex define(R"(define\s+(\w+).*)"), undef(R"(undef\s+(\w+).*)");
         static const std::regex ifdef(R"(ifdef\s+(\w+).*)"), ifndef(R"(ifndef\s+(\w+).*)");
@@ -210,6 +221,7 @@ class Expander {
                 auto value = statics_.find(info.name);
                 std::string text = value != statics_.end() ? value->second : glsl_literal(info);
                 emit(fmt::format("#define {} {}", info.name, text), file, number);
+                if (text == "true" || text == "false") static_bools_[info.name] = text == "true";
             } else {
                 emit(line, file, number);
             }
@@ -261,6 +273,7 @@ class Expander {
         if (same == out_.slots.end()) out_.slots.push_back(slot);
     }
 
+    std::map<std::string, bool> static_bools_;
     fs::path folder_;
     const Defines& defines_;
     const Defines& statics_;

@@ -143,6 +143,8 @@ void Graph::ask_whether_outgrown() {
         dirty_ = true;
         outgrown_ = true;
     }
+    // What such a frame left for those after it (means over frames) was made with something missing.
+    if (outgrown_) reset_history();
 }
 
 bool Graph::outgrown() {

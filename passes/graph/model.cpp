@@ -65,6 +65,7 @@ GraphModel::GraphModel(GraphFile file) : file_(std::move(file)) {
             errors.add(fmt::format("pass '{}': params_of names no earlier pass: '{}'", entry.id, entry.params_of));
         scan(*node);
         apply_file_values(*node, errors);
+        scan(*node); // what is compiled in tells which slots there are
         nodes_.push_back(std::move(node));
     }
     for (const std::string& name : {file_.transport.occlusion_distance, file_.transport.occlusion_falloff}) {
@@ -202,6 +203,9 @@ void GraphModel::set(const std::string& name, const std::string& text, Parameter
     auto [id, own] = split_name(name);
     if (id != "graph") {
         find_node(id)->parameters.set_text(own, text, origin);
+        if (!find_node(id)->parameters.find(own)->info.is_static) return;
+        for (const auto& node : nodes_)
+            if (node->id() == id || node->entry.params_of == id) scan(*node); // other slots may be there now
         return;
     }
     graph_parameters_.set_text(own, text, origin);
@@ -249,6 +253,8 @@ void GraphModel::adopt_values(const GraphModel& old) {
         node->parameters.adopt(before->parameters);
         if (before->entry.enabled == node->entry.enabled) node->enabled = before->enabled;
     }
+    for (const auto& node : nodes_)
+        scan(*node); // by the values that are compiled in
 }
 
 void GraphModel::adopt_programs(GraphModel& other) {

@@ -56,6 +56,26 @@ TEST_F(SessionTest, TheSameFramesGiveTheSameBits) {
     EXPECT_EQ(picture(one), picture(two));
 }
 
+/// A frame that had no room for all is rendered again: what it left behind may not count in means over frames.
+TEST_F(SessionTest, AFrameThatIsRenderedAgainCountsOnceInAMean) {
+    SessionOptions small = options();
+    small.graph = "ldm_indirect_tuned";
+    small.sets = {{"ldm.maps", "16"}, {"ldm.resolution", "32"}, {"rsm.resolution", "32"}};
+    SessionOptions tight = small;
+    tight.sets.emplace_back("ldm.fragments", "0.1");
+    tight.switches = {{"accumulate", true}};
+    Session one(small), two(tight);
+    one.render(true);
+    two.render(true);
+    std::vector<float> mean = two.graph().texture("accumulate.mean")->read();
+    EXPECT_EQ(mean[3], 1);
+    EXPECT_EQ(picture(one), picture(two));
+    two.advance();
+    two.render(true);
+    EXPECT_EQ(two.graph().texture("accumulate.mean")->read()[3], 2);
+    EXPECT_EQ(picture(one), picture(two)) << "the mean of two frames that are the same";
+}
+
 TEST_F(SessionTest, AGraphThatCannotBeOpenedLeavesTheOldOneRunning) {
     Session session(options());
     session.render();

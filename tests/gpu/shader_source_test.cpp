@@ -215,6 +215,30 @@ uniform float plain = 1.0; //! [0, 1] plain
     expect_table_holds(source);
 }
 
+/// What only one of its values needs is a slot for that value alone.
+TEST_F(Source, StaticBoolsSteerWhichSlotsThereAre) {
+    folder.write("main.comp", R"(uniform bool exact = false; //! static exact
+#if exact // a comment
+uniform sampler2D a_exact;
+#else
+uniform sampler2D a_rough;
+#endif
+#if !exact
+uniform sampler2D a_mean;
+#endif
+#if unknown
+uniform sampler2D a_unknown;
+#endif
+)");
+    ShaderSource off = expand("main.comp"), on = expand("main.comp", {}, {{"exact", "true"}});
+    EXPECT_THAT(names(off), ElementsAre("a.rough", "a.mean", "a.unknown"));
+    EXPECT_THAT(names(on), ElementsAre("a.exact", "a.unknown"));
+    EXPECT_TRUE(off.slots[0].certain);
+    EXPECT_FALSE(off.slots[2].certain);
+    EXPECT_THAT(on.text, HasSubstr("#if 1\nuniform sampler2D a_exact;"));
+    EXPECT_THAT(off.text, HasSubstr("#if unknown\n")); // the compiler's own business
+}
+
 TEST_F(Source, ParametersOfIncludesBelongToTheStageAndMalformedOnesAreErrors) {
     folder.write("main.comp", "#include \"lib.glsl\"\nuniform float bad = 1.0; //! [1 2] bad\n");
     folder.write("lib.glsl", "\nuniform float good = 1.0; //! [0, 2] good\n");

@@ -177,6 +177,41 @@ TEST_F(Reload, AStaticParameterIsCompiledInAndRecompiledWhenItChanges) {
     EXPECT_NE(run.graph.model().nodes()[0]->programs[0]->id(), before);
 }
 
+/// A pass that reads a resource at one value of a static parameter only needs it there only; a pass that shares the
+/// parameter follows.
+TEST_F(Reload, AStaticBoolBringsASlotAndTakesItAway) {
+    const char* const k_choice = "uniform bool other = false; //! static other\n#if other\nuniform sampler2D a_other;\n"
+                                 "float value() { return texelFetch(a_other, ivec2(0), 0).r; }\n#else\n"
+                                 "float value() { return 3.0; }\n#endif";
+    fill_shader("fill.comp", "a_image", "value()", k_choice);
+    fill_shader("same.comp", "a_same", "value() + 1.0", k_choice);
+    fill_shader("late.comp", "a_other", "5.0", "uniform sampler2D a_image;\nuniform sampler2D a_same;");
+    // Only without a.other, which comes from what they feed, is this no circle.
+    auto file = graph_file(R"("resources":{"a.image":{"format":"rgba32f","size":[4,4]},
+        "a.same":{"format":"rgba32f","size":[4,4]},"a.other":{"format":"rgba32f","size":[4,4]}},
+        "passes":[{"id":"fill","type":"compute","shader":"fill.comp"},
+                  {"id":"same","type":"compute","shader":"same.comp","params_of":"fill"},
+                  {"id":"late","type":"compute","shader":"late.comp"}])");
+    GraphRunner run(file);
+    run.frame();
+    EXPECT_EQ(run.problems(), "");
+    EXPECT_EQ(red(run), 3);
+    EXPECT_EQ(run.read("a.same")[0], 4);
+    EXPECT_THAT(run.graph.model().parameter_names(), Not(testing::Contains("same.other"))) << "it is the other's";
+    EXPECT_THROW(
+        {
+            run.graph.model().set("fill.other", "true", ParameterOrigin::panel);
+            run.graph.model().plan({}, {4, 4});
+        },
+        Error)
+        << "both read what late makes of them";
+    run.graph.model().set("fill.other", "false", ParameterOrigin::panel);
+    run.graph.touch();
+    run.frame();
+    EXPECT_EQ(run.problems(), "");
+    EXPECT_EQ(red(run), 3);
+}
+
 TEST_F(Reload, AGraphFileEditedWhileRunning) {
     fill_shader("fill.comp", "a_image", "gain", "uniform float gain = 1.0; //! [0, 9] gain");
     fill_shader("more.comp", "a_more", "texelFetch(a_image, ivec2(0), 0).r * 10", "uniform sampler2D a_image;");
