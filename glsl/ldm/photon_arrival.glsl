@@ -15,6 +15,7 @@ uniform sampler2D gbuffer_depth;
 
 uniform int visibility = 0;           //! {depth, plane} how far what the camera sees may lie from where the photon arrived: along the view, or off the pixel's plane
 uniform float visibility_distance = 0.005; //! [1e-5, 0.5] that distance, as a share of the scene's diagonal
+uniform float guard_band = 0.0;       //! [0, 0.5] visibility plane: photons that arrive beside the picture, by up to this share of its size, count too where they lie on the plane of the nearest pixel: their footprints reach into it
 uniform bool snap = false;            //! photons arrive on the plane of the pixel that they project to, where that lies within a texel of the map's depth
 uniform float footprint_scale = 1.0;  //! [0.25, 8] footprints are as many times as long and wide as the photon's differential
 uniform float region_spread = 0.0;    //! [0, 4] footprints also spread with the distance by this share of the width √(2π/N) of an axis's region, which the axis stands for
@@ -84,8 +85,9 @@ uint last_leg(Emitter emitter, int slot, LdmView view, out Photon photon) {
     vec3 x = emitter.position + t * d;
 
     vec3 at = project_to_pixel(x);
-    ivec2 pixel = ivec2(floor(at.xy));
-    if (at.z <= near_plane || any(lessThan(at.xy, vec2(0.0))) || any(greaterThanEqual(pixel, resolution))) return k_fate_unseen;
+    vec2 beside = guard_band * vec2(resolution);
+    if (at.z <= near_plane || any(lessThan(at.xy, -beside)) || any(greaterThanEqual(at.xy, vec2(resolution) + beside))) return k_fate_unseen;
+    ivec2 pixel = clamp(ivec2(floor(at.xy)), ivec2(0), resolution - 1);
     float depth = texelFetch(gbuffer_depth, pixel, 0).r;
     if (depth <= 0.0) return k_fate_unseen;
     vec3 seen = world_position(pixel, depth), n = normalize(texelFetch(gbuffer_geometric_normal, pixel, 0).xyz);

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <fmt/format.h>
 #include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -197,6 +198,37 @@ TEST_F(Photons, SplatsKeepTheFlux) {
         sum += double(pictures[0][i]);
     }
     EXPECT_LT(difference / sum, 0.01); // pixels at the rim of a quad whose footprint bends off its plane
+}
+
+/// At the borders of the picture, what photons beside it bring: as in the middle of a picture twice as wide and high.
+TEST_F(Photons, AGuardBandKeepsTheLightOfThePicturesBorders) {
+    auto picture = [&](double tangent, glm::ivec2 size, const char* band) {
+        SceneRunner runner(floor_and_wall(), a_spot(), graph_file(k_graph), {{"photons.guard_band", band}}, size);
+        runner.camera.position = {0, 2, 3};
+        runner.camera.target = {0, 1, -2};
+        runner.camera.vfov = float(2 * std::atan(tangent));
+        do {
+            runner.frame();
+        } while (runner.graph.outgrown());
+        return runner.read("out.indirect_diffuse");
+    };
+    const glm::ivec2 size(64, 48);
+    std::vector<float> wide = picture(0.3, 2 * size, "0"), cut = picture(0.15, size, "0"),
+                       guarded = picture(0.15, size, "0.5");
+    auto border = [&](const std::vector<float>& values, int width, glm::ivec2 from) {
+        double sum = 0;
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x)
+                if (x < 2 || y < 2 || x >= size.x - 2 || y >= size.y - 2)
+                    sum += values[size_t(4 * ((y + from.y) * width + x + from.x))];
+        return sum;
+    };
+    double wanted = border(wide, 2 * size.x, size / 2);
+    ASSERT_GT(wanted, 0);
+    fmt::print("    the outer two pixels have {:.3f} of their light, with a guard band {:.3f}\n",
+               border(cut, size.x, {0, 0}) / wanted, border(guarded, size.x, {0, 0}) / wanted);
+    EXPECT_LT(border(cut, size.x, {0, 0}), 0.9 * wanted);
+    EXPECT_NEAR(border(guarded, size.x, {0, 0}), wanted, 0.02 * wanted);
 }
 
 TEST_F(Photons, TwoRunsGiveTheSameBytes) {
