@@ -11,7 +11,7 @@ VoxelFragment fragment_of(VisitedTriangle t, ivec3 voxel) {
     VoxelFragment f;
     float metallic = clamp(m.metallic * sample_at_point(m.metallic_roughness_texture, point, 16.0).b, 0.0, 1.0);
     f.albedo = (m.base_colour * point.colour * sample_at_point(m.base_colour_texture, point, 16.0)).rgb * (1.0 - metallic);
-    f.emission = m.emission * sample_at_point(m.emission_texture, point, 16.0).rgb;
+    f.emission = k_emission ? m.emission * sample_at_point(m.emission_texture, point, 16.0).rgb : vec3(0.0);
     vec3 authored = vec3(0.0);
     for (int i = 0; i < 3; ++i)
         authored += point.weight[i] * corners[i].normal_v.xyz;

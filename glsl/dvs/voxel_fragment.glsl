@@ -13,7 +13,13 @@ struct VoxelFragment {
     float area; // of what emits, inside the voxel (voxels²)
 };
 
-uniform int emission_share; // {mean, covered}
+#ifdef HAS_voxels_emission
+const bool k_emission = true; // something in the scene emits
+#else
+const bool k_emission = false;
+#endif
+
+uniform int emission_share = 0; //! static {mean, covered} averaging sum or gather. mean: emission is averaged over triangles, like all else; covered: it counts by the part of the voxel's mean plane that emitters cover
 
 uniform float leaf_threshold = 0.3; //! [0, 1] directional leaves: the cosine to an axis from which a surface blocks along it
 
@@ -30,7 +36,7 @@ uint leaves_of(vec3 facing, bool both_sides) {
 void place_fragment(inout VoxelFragment f, vec3 a, vec3 b, vec3 c, vec3 facing, ivec3 voxel) {
     f.offset = dot(facing, a - (vec3(voxel) + 0.5));
     f.area = 0.0;
-    if (emission_share == 1 && f.emission != vec3(0.0)) f.area = triangle_area_in_voxel(a, b, c, voxel);
+    if (k_emission && emission_share == 1 && f.emission != vec3(0.0)) f.area = triangle_area_in_voxel(a, b, c, voxel);
 }
 float emission_weight(VoxelFragment f) {
     return emission_share == 1 ? f.area : 1.0;

@@ -30,9 +30,6 @@ class VoxelizationPass : public Pass {
             "how the fragments of a voxel become one. average: packed running means by compare-and-swap, as "
             "published; last_writer: one triangle's surface; sum: integer sums by atomic adds, the same every "
             "run; gather: the same sums without atomics, each voxel going through its triangles (compute route)");
-        p.add_choice("emission_share", emission_share_, {"mean", "covered"},
-                     "averaging=sum or gather. mean: emission is averaged over triangles, like all else; covered: it "
-                     "counts by the part of the voxel's mean plane that emitters cover");
         p.add("planes", planes_,
               "all but averaging=average: a voxel also knows where its mean plane lies, and exact hits are with "
               "that plane; off: the whole voxel blocks");
@@ -126,7 +123,6 @@ class VoxelizationPass : public Pass {
   private:
     enum class Route { raster, compute };
     enum class Averaging { average, last_writer, sum, gather };
-    enum class EmissionShare { mean, covered };
     static constexpr int k_static = 1, k_dynamic = 2; // as in dvs/list.glsl
     static constexpr int k_row = 65536;               // as in voxel/triangle_voxels.glsl
 
@@ -146,7 +142,8 @@ class VoxelizationPass : public Pass {
             state.insert(state.end(), bytes, bytes + sizeof(value));
         };
         if (!static_once_) add(++frames_);
-        add(resolution_), add(route_), add(averaging_), add(emission_share_), add(planes_), add(room_),
+        add(resolution_), add(route_), add(averaging_), add(planes_), add(room_),
+            add(c.number(c.plan().id + ".emission_share").value_or(0)),
             add(c.number(c.plan().id + ".leaf_threshold").value_or(0)),
             add(c.number(c.plan().id + ".plane_coherence").value_or(0)),
             add(c.number(c.plan().id + ".fill").value_or(0));
@@ -237,7 +234,6 @@ class VoxelizationPass : public Pass {
     int resolution_ = 128;
     Route route_ = Route::raster;
     Averaging averaging_ = Averaging::average;
-    EmissionShare emission_share_ = EmissionShare::mean;
     bool static_once_ = true, emission_ = false, planes_ = false;
     int room_ = 32;
     std::vector<char> state_; ///< what the static voxels were made of; empty: there are none

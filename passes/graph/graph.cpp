@@ -69,10 +69,12 @@ void Graph::plan_again(const SceneFacts& facts, glm::ivec2 size) {
     if (resized || lost) reset_history();
 }
 
-/// Formats of the images that a pass stores to, for layout(FORMAT_slot).
+/// Formats of the images that a pass stores to, for layout(FORMAT_slot), and HAS_slot for optional slots that something
+/// fills: what would only feed a neutral value need not be compiled.
 Defines Graph::formats_of(const PlanPass& pass) const {
     Defines formats;
     for (const PlanSlot& slot : pass.slots) {
+        if (slot.use.optional && slot.resource >= 0) formats["HAS_" + slot_identifier(slot.use.slot)] = "1";
         if (slot.use.usage != Usage::image) continue;
         std::string format = "rgba16f";
         if (slot.resource >= 0) format = plan_.resources[size_t(slot.resource)].declaration.format;
