@@ -20,6 +20,12 @@ VoxelGrid occlusion_grid() {
     return voxel_grid(size.x << finer, leaves, textureQueryLevels(voxels_occlusion) + finer, leaves == 1 ? 2 : 4);
 }
 
+// One voxel of the base level out of its brick.
+float brick_bit(ivec3 voxel) {
+    uint brick = texelFetch(voxels_bricks, voxel >> 1, 0).r;
+    return float(brick >> ((voxel.x & 1) | (voxel.y & 1) << 1 | (voxel.z & 1) << 2) & 1u);
+}
+
 // The base level out of bricks, between voxels linearly; `at` in [0, 1]³, `leaf` 0 … 5.
 float brick_occlusion(VoxelGrid grid, vec3 at, int leaf) {
     vec3 place = at * float(grid.resolution) - 0.5;
@@ -30,9 +36,8 @@ float brick_occlusion(VoxelGrid grid, vec3 at, int leaf) {
         ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
         ivec3 voxel = clamp(low + corner, ivec3(0), ivec3(grid.resolution - 1));
         voxel.z += leaf * grid.resolution;
-        uint brick = texelFetch(voxels_bricks, voxel >> 1, 0).r;
         vec3 weight = mix(1.0 - part, part, vec3(corner));
-        if ((brick >> ((voxel.x & 1) | (voxel.y & 1) << 1 | (voxel.z & 1) << 2) & 1u) != 0u) sum += weight.x * weight.y * weight.z;
+        sum += brick_bit(voxel) * weight.x * weight.y * weight.z;
     }
     return sum;
 }

@@ -16,9 +16,7 @@ float run_hit;         // where they block
 // 1 where the voxel blocks along a leaf.
 float base_occlusion(VoxelGrid grid, ivec3 voxel, int leaf) {
     voxel.z += leaf * grid.resolution;
-    if (!occlusion_is_bits()) return texelFetch(voxels_occlusion, voxel, 0).r;
-    uint brick = texelFetch(voxels_bricks, voxel >> 1, 0).r;
-    return float(brick >> ((voxel.x & 1) | (voxel.y & 1) << 1 | (voxel.z & 1) << 2) & 1u);
+    return occlusion_is_bits() ? brick_bit(voxel) : texelFetch(voxels_occlusion, voxel, 0).r;
 }
 
 int facing_leaf(vec3 direction, int axis) {

@@ -39,6 +39,15 @@ float hashed(uint i) {
 }
 )";
 
+/// A room whose walls are one voxel thick, as an expression of `v`.
+const char* const k_room =
+    "any(equal(v, ivec3(3))) || any(equal(v, ivec3(28))) ? (all(greaterThanEqual(v, ivec3(3))) && "
+    "all(lessThanEqual(v, ivec3(28))) ? 1.0 : 0.0) : 0.0";
+/// Starts inside it, in all directions.
+#define FROM_INSIDE                                                                                                    \
+    "vec3 apex = (vec3(hashed(uint(i) * 8u + 2u), hashed(uint(i) * 8u + 3u), hashed(uint(i) * 8u + 4u)) - 0.5) * 1.2;" \
+    "vec3 d = on_sphere(i);"
+
 class Cones : public SceneGraphTest {
   protected:
     /// Fills the voxels by an expression of `v` (the voxel in its leaf) and `leaf`, makes mips, and has `body` write
@@ -190,18 +199,12 @@ TEST_F(Cones, NothingBlocksInAnEmptyGrid) {
 /// A room one voxel thick: every thin cone from inside is blocked, within a voxel of its wall. Coarser mips are used to
 /// cross the empty space: none may carry a cone past the wall.
 TEST_F(Cones, EveryThinConeIsBlockedWhereItMeetsAThinWall) {
-    const char* const k_room =
-        "any(equal(v, ivec3(3))) || any(equal(v, ivec3(28))) ? (all(greaterThanEqual(v, ivec3(3))) && "
-        "all(lessThanEqual(v, ivec3(28))) ? 1.0 : 0.0) : 0.0";
     for (bool leaves : {false, true}) {
-        std::vector<glm::vec4> got = samples(
-            2048, k_room,
-            R"(vec3 apex = (vec3(hashed(uint(i) * 8u + 2u), hashed(uint(i) * 8u + 3u), hashed(uint(i) * 8u + 4u)) - 0.5) * 1.2;
-               vec3 d = on_sphere(i);
+        std::vector<glm::vec4> got = samples(2048, k_room, FROM_INSIDE R"(
                float hit = find_hit(grid, apex, d, 0.01, 0.5);
                vec3 at = abs(apex + hit * d); // the middle of the wall's voxels is 12.5 voxels from the grid's
                result = vec4(hit, max(at.x, max(at.y, at.z)) / grid.voxel - 12.5, grid.voxel, 0.0);)",
-            leaves);
+                                             leaves);
         int missed = 0;
         double worst = 0;
         for (const glm::vec4& result : got) {
@@ -222,19 +225,13 @@ TEST_F(Cones, EveryThinConeIsBlockedWhereItMeetsAThinWall) {
 
 /// Exact hits in the same room: all of them, and inside the wall's own voxels.
 TEST_F(Cones, EveryExactHitLiesInsideAThinWall) {
-    const char* const k_room =
-        "any(equal(v, ivec3(3))) || any(equal(v, ivec3(28))) ? (all(greaterThanEqual(v, ivec3(3))) && "
-        "all(lessThanEqual(v, ivec3(28))) ? 1.0 : 0.0) : 0.0";
     for (bool leaves : {false, true}) {
-        std::vector<glm::vec4> got = samples(
-            2048, k_room,
-            R"(vec3 apex = (vec3(hashed(uint(i) * 8u + 2u), hashed(uint(i) * 8u + 3u), hashed(uint(i) * 8u + 4u)) - 0.5) * 1.2;
-               vec3 d = on_sphere(i);
+        std::vector<glm::vec4> got = samples(2048, k_room, FROM_INSIDE R"(
                float came_in, leaves, hit = find_exact_hit(grid, apex, d, 0.0, came_in, leaves);
                vec3 at = abs(apex + hit * d), in_at = abs(apex + came_in * d);
                result = vec4(hit, max(at.x, max(at.y, at.z)) / grid.voxel, max(in_at.x, max(in_at.y, in_at.z)) / grid.voxel,
                              leaves - came_in);)",
-            leaves);
+                                             leaves);
         for (const glm::vec4& result : got) {
             ASSERT_GE(result.x, 0) << (leaves ? "six leaves" : "isotropic");
             // The wall's voxels lie from 12 to 13 voxels off the grid's middle.
