@@ -18,7 +18,9 @@ Blocker find_blocker(VoxelGrid grid, vec3 apex, vec3 direction, float from) {
 // What a voxel's side sends on but for what the lights' own light makes it send.
 vec3 colour_without_lights(ivec3 voxel, bool front) {
     vec3 colour = max(colour_of_side(dvs_base, voxel, front) - colour_of_side(dvs_radiance, voxel, front), vec3(0.0));
-    if (textureSize(voxels_emission, 0).x > 1) colour += texelFetch(voxels_emission, voxel, 0).rgb; // 1: the neutral one
+#ifdef HAS_voxels_emission
+    colour += texelFetch(voxels_emission, voxel, 0).rgb;
+#endif
     return colour;
 }
 
