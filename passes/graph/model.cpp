@@ -38,6 +38,11 @@ static SceneFacts usual_scene() {
     return facts;
 }
 
+/// What is compiled in tells which slots there are: after it changed, they are read again.
+static void scan_by_values(GraphModel& model, PassNode& node) {
+    if (!model.static_values(node).empty()) model.scan(node);
+}
+
 GraphModel::GraphModel(GraphFile file) : file_(std::move(file)) {
     ErrorList errors;
     for (const std::string& message : file_.errors)
@@ -65,7 +70,7 @@ GraphModel::GraphModel(GraphFile file) : file_(std::move(file)) {
             errors.add(fmt::format("pass '{}': params_of names no earlier pass: '{}'", entry.id, entry.params_of));
         scan(*node);
         apply_file_values(*node, errors);
-        scan(*node); // what is compiled in tells which slots there are
+        scan_by_values(*this, *node);
         nodes_.push_back(std::move(node));
     }
     for (const std::string& name : {file_.transport.occlusion_distance, file_.transport.occlusion_falloff}) {
@@ -254,7 +259,7 @@ void GraphModel::adopt_values(const GraphModel& old) {
         if (before->entry.enabled == node->entry.enabled) node->enabled = before->enabled;
     }
     for (const auto& node : nodes_)
-        scan(*node); // by the values that are compiled in
+        scan_by_values(*this, *node);
 }
 
 void GraphModel::adopt_programs(GraphModel& other) {
