@@ -1,7 +1,10 @@
-// bounce table: memory by structure and time by stage, in the form of a paper's tables and beside its figures.
+// bounce table: costs in the form of a paper's tables and beside its figures, or errors against the reference.
+#include "app/capture.h"
 #include "app/commands/command.h"
 #include "app/commands/session_options.h"
 #include "app/experiments/cost_table.h"
+#include "app/experiments/error_table.h"
+#include "app/experiments/table_file.h"
 #include "app/hosts/headless.h"
 #include "core/error.h"
 #include "core/image.h"
@@ -16,7 +19,20 @@ struct TableArguments {
     int warm_up = 2, frames = 5, device = -1;
 };
 
-int print_table(const TableArguments& arguments) {
+std::string measured_errors(const TableArguments& arguments, const std::filesystem::path& path) {
+    if (!arguments.size.empty())
+        throw Error("invalid --size '" + arguments.size + "': a table of errors states its sizes itself");
+    const ErrorTableFile file = load_error_table(path);
+    HeadlessContext context(arguments.device);
+    std::vector<ErrorTableMeasured> measured;
+    for (const ErrorTableRow& row : file.rows) {
+        fmt::print(stderr, "{}, {} …\n", row.graph, row.name);
+        measured.push_back(measure_row(row, [](const std::string& line) { fmt::print(stderr, "  {}\n", line); }));
+    }
+    return (file.about.empty() ? "" : file.about + "\n\n") + error_table_markdown(file, measured);
+}
+
+std::string measured_costs(const TableArguments& arguments) {
     CostTableFile file = load_cost_table(arguments.table);
     SessionArguments shared;
     shared.size = arguments.size;
@@ -27,7 +43,13 @@ int print_table(const TableArguments& arguments) {
         fmt::print(stderr, "{} …\n", column.name);
         measured.push_back(measure_column(file, column, size, arguments.warm_up, arguments.frames));
     }
-    std::string text = cost_table_markdown(file, measured);
+    return cost_table_markdown(file, measured);
+}
+
+int print_table(const TableArguments& arguments) {
+    if (!arguments.output.empty()) check_output_folder(arguments.output);
+    const std::filesystem::path path = find_table(arguments.table);
+    const std::string text = is_error_table(path) ? measured_errors(arguments, path) : measured_costs(arguments);
     if (arguments.output.empty())
         fmt::print("{}", text);
     else
@@ -38,7 +60,7 @@ int print_table(const TableArguments& arguments) {
 
 void add_table_command(CLI::App& app, CommandFunction& chosen) {
     auto* command =
-        app.add_subcommand("table", "memory by structure and time by stage, beside a paper's figures, as Markdown");
+        app.add_subcommand("table", "costs beside a paper's figures, or errors against the reference, as Markdown");
     auto arguments = std::make_shared<TableArguments>();
     command->add_option("table", arguments->table, "a table: name or .json")->required();
     command->add_option("--size", arguments->size, "WxH instead of the shots' sizes");

@@ -1,12 +1,10 @@
 #include "app/experiments/cost_table.h"
 
 #include "app/experiments/chart_point.h"
+#include "app/experiments/table_file.h"
 #include "app/session.h"
 #include "app/timings.h"
 #include "core/error.h"
-#include "core/image.h"
-#include "core/paths.h"
-#include "core/text.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -19,26 +17,6 @@ namespace bounce {
 using nlohmann::ordered_json;
 
 namespace {
-
-std::string set_text(const ordered_json& value) {
-    return value.is_string() ? value.get<std::string>() : value.dump();
-}
-
-/// Tells about keys that are not in `known`.
-void check_keys(const ordered_json& object, const std::string& where, const std::vector<std::string>& known,
-                ErrorList& errors) {
-    for (const auto& [key, value] : object.items()) {
-        if (std::find(known.begin(), known.end(), key) == known.end())
-            errors.add(fmt::format("{}: there is no key '{}'{}", where, key, did_you_mean(key, known)));
-    }
-}
-
-std::string text_at(const ordered_json& object, const char* key, const std::string& where, ErrorList& errors,
-                    bool required) {
-    if (object.contains(key) && object[key].is_string()) return object[key].get<std::string>();
-    if (object.contains(key) || required) errors.add(fmt::format("{}: '{}' must be a text", where, key));
-    return {};
-}
 
 std::vector<CostTableRow> rows_of(const ordered_json& json, const char* table, const char* parts, ErrorList& errors) {
     std::vector<CostTableRow> rows;
@@ -79,22 +57,9 @@ std::vector<CostTableRow> rows_of(const ordered_json& json, const char* table, c
 } // namespace
 
 CostTableFile load_cost_table(const std::string& name) {
-    std::filesystem::path path = name;
-    if (!std::filesystem::is_regular_file(path)) path = assets_folder() / "tables" / (name + ".json");
-    if (!std::filesystem::is_regular_file(path)) {
-        std::vector<std::string> names;
-        std::error_code ignored;
-        for (const auto& entry : std::filesystem::directory_iterator(assets_folder() / "tables", ignored))
-            names.push_back(entry.path().stem().string());
-        throw Error("there is no table '" + name + "'" + did_you_mean(name, names));
-    }
-    ordered_json json;
-    try {
-        json = ordered_json::parse(read_file(path), nullptr, true, true);
-    } catch (const ordered_json::parse_error& error) {
-        throw Error(path.string() + ": not JSON: " + error.what());
-    }
-    if (!json.is_object() || !json.contains("columns") || !json["columns"].is_array())
+    const std::filesystem::path path = find_table(name);
+    const ordered_json json = read_table(path);
+    if (!json.contains("columns") || !json["columns"].is_array())
         throw Error(path.string() +
                     ": a table is an object {\"graph\": …, \"columns\": […], \"memory\": […], \"time\": […]}");
     ErrorList errors;
@@ -116,10 +81,7 @@ CostTableFile load_cost_table(const std::string& name) {
         column.shot = text_at(entry, "shot", where, errors, true);
         column.graph = entry.contains("graph") ? text_at(entry, "graph", where, errors, true) : graph;
         if (column.graph.empty()) errors.add(where + ": neither the column nor the table names a graph");
-        if (entry.contains("set") && entry["set"].is_object()) {
-            for (const auto& [parameter, value] : entry["set"].items())
-                column.sets.emplace_back(parameter, set_text(value));
-        }
+        column.sets = sets_at(entry, where, errors);
         file.columns.push_back(column);
     }
     file.memory = rows_of(json, "memory", "resources", errors);

@@ -1,0 +1,67 @@
+#include "app/experiments/table_file.h"
+
+#include "core/image.h"
+#include "core/paths.h"
+#include "core/text.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace bounce {
+
+using nlohmann::ordered_json;
+
+std::filesystem::path find_table(const std::string& name) {
+    std::filesystem::path path = name;
+    if (!std::filesystem::is_regular_file(path)) path = assets_folder() / "tables" / (name + ".json");
+    if (std::filesystem::is_regular_file(path)) return path;
+    std::vector<std::string> names;
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(assets_folder() / "tables", ignored))
+        names.push_back(entry.path().stem().string());
+    throw Error("there is no table '" + name + "'" + did_you_mean(name, names));
+}
+
+ordered_json read_table(const std::filesystem::path& path) {
+    ordered_json json;
+    try {
+        json = ordered_json::parse(read_file(path), nullptr, true, true);
+    } catch (const ordered_json::parse_error& error) {
+        throw Error(path.string() + ": not JSON: " + error.what());
+    }
+    if (!json.is_object()) throw Error(path.string() + ": a table is an object {…}");
+    return json;
+}
+
+void check_keys(const ordered_json& object, const std::string& where, const std::vector<std::string>& known,
+                ErrorList& errors) {
+    for (const auto& [key, value] : object.items()) {
+        if (std::find(known.begin(), known.end(), key) == known.end())
+            errors.add(fmt::format("{}: there is no key '{}'{}", where, key, did_you_mean(key, known)));
+    }
+}
+
+std::string text_at(const ordered_json& object, const char* key, const std::string& where, ErrorList& errors,
+                    bool required) {
+    if (object.contains(key) && object[key].is_string()) return object[key].get<std::string>();
+    if (object.contains(key) || required) errors.add(fmt::format("{}: '{}' must be a text", where, key));
+    return {};
+}
+
+std::string set_text(const ordered_json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+ParameterValues sets_at(const ordered_json& object, const std::string& where, ErrorList& errors) {
+    ParameterValues sets;
+    if (!object.contains("set")) return sets;
+    if (!object["set"].is_object()) {
+        errors.add(where + ": 'set' must be {\"pass.parameter\": value}");
+        return sets;
+    }
+    for (const auto& [parameter, value] : object["set"].items())
+        sets.emplace_back(parameter, set_text(value));
+    return sets;
+}
+
+} // namespace bounce
