@@ -3,7 +3,7 @@
 // One directional value from eight voxels (DVS, section VII; Crassin et al. 2011): in depth the near one before the far
 // one, c = c_near + (1 − α_near)·c_far, then the mean over the four columns. Values are premultiplied; children are indexed
 // x + 2y + 4z. Who looks at leaf k = 2·axis comes from +axis.
-uniform int mip_rule = 0; //! {front_to_back, mean} how eight voxels become one: front to back in depth, as published; or all one mean, which knows no direction (isotropic)
+uniform int mip_rule = 0; //! {front_to_back, mean} how eight voxels become one; mean is isotropic, front_to_back as published
 
 vec4 directional_mean(vec4 children[8], int leaf) {
     if (mip_rule == 1) {

@@ -25,10 +25,10 @@ uniform float emission_scale;
 uniform int attenuation = 0;         //! {lambert, normal_weighted} Eq. 2, or Eq. 3–5
 uniform int occlusion = 0;           //! {shadow_map, ray_hard, ray_soft, none} what tells which voxels a light reaches
 uniform float shadow_shift = 0.5;    //! [0, 4] (voxels) how far along the normal a voxel is moved before its look-up: ½ as published
-uniform int shadow_filter = 0;       //! [0, 3] shadow_map: points a side, over the voxel's width across the normal, that are looked up; 0: one
+uniform int shadow_filter = 0;       //! [0, 3] shadow_map: points per side looked up over the voxel's width; 0: one point
 uniform float ray_start = 1.5;       //! [0.5, 8] (voxels) where a ray starts, past the voxel itself
 uniform float ray_step = 1.0;        //! [0.25, 2] (voxels) from sample to sample of a ray
-uniform float kappa = 0.5;           //! [0, 4] κ, what a collision adds to the occlusion of a soft ray, at a distance of one voxel
+uniform float kappa = 0.5;           //! [0, 4] κ: what a collision one voxel away adds to a soft ray's occlusion
 
 float seen_in_map(Light light, vec3 p) {
     int layer = shadow_layer(light, p);

@@ -14,8 +14,8 @@ layout(FORMAT_dvs_irradiance) writeonly uniform image2D dvs_irradiance;
 uniform int cone_set = 0;       //! {six, six_tilted, spiral} six as published
 uniform int spiral_cones = 32;  //! [4, 128] cones of the set spiral
 uniform int interleave = 1;     //! [1, 8] (texels) neighbours in blocks of n × n take different cones; 1: all take the same
-uniform bool dithered_start = false; //! cones of neighbours in blocks of 4 × 4 begin at other places of their first step: noise instead of bands
-uniform int hit_lookup = 0;     //! static {voxels, map} voxels: the voxel that a ray hits says how it is lit; map: the ray walks over the reflective shadow maps, next to the surface and around where voxels block it
+uniform bool dithered_start = false; //! shifts the first step differently in blocks of 4 × 4: noise instead of bands
+uniform int hit_lookup = 0;     //! static {voxels, map} light at the hit: from the voxel, or from a walk over the reflective shadow maps
 uniform float aperture = 60.0;  //! [1, 90] (degrees) of each cone, from side to side
 
 void main() {

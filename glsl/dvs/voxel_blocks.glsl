@@ -11,8 +11,8 @@ uniform usampler3D voxels_bricks; // 0: all 4³ voxels are empty
 
 uniform float facing_threshold = 0.05; //! [0, 0.9] exact hits: a voxel blocks rays whose cosine to its normal is above this
 
-uniform float plane_depth = 0.0; //! [-1, 1] (voxels) exact hits, planes: how far behind a voxel's plane a ray must come to be blocked there
-uniform float plane_slack = 2.0; //! [0, 2] (voxels) exact hits, planes: who enters a voxel farther behind its plane is not blocked there
+uniform float plane_depth = 0.0; //! [-1, 1] (voxels) exact hits: depth behind a voxel's plane from which it blocks
+uniform float plane_slack = 2.0; //! [0, 2] (voxels) exact hits: a ray that enters farther behind the plane passes
 
 bool met_front; // whether the ray meets the side that the normal of the last voxel asked faces
 

@@ -19,7 +19,7 @@ const bool k_emission = true; // something in the scene emits
 const bool k_emission = false;
 #endif
 
-uniform int emission_share = 0; //! static {mean, covered} averaging sum or gather. mean: emission is averaged over triangles, like all else; covered: it counts by the part of the voxel's mean plane that emitters cover
+uniform int emission_share = 0; //! static {mean, covered} emission: mean over triangles, or by the covered share of the voxel's plane
 
 uniform float leaf_threshold = 0.3; //! [0, 1] directional leaves: the cosine to an axis from which a surface blocks along it
 

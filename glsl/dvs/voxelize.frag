@@ -8,7 +8,7 @@
 #include "dvs/fragment_store.glsl"
 
 uniform int resolution_of_grid;
-uniform int fill = 0;  //! {centre, exact} raster route. centre: one voxel a column, as published; exact: every voxel that the triangle overlaps
+uniform int fill = 0;  //! {centre, exact} raster: one voxel per column (published), or every voxel that is overlapped
 
 in Surface {
     vec3 normal;

@@ -13,7 +13,7 @@ uniform sampler2D gbuffer_depth;
 uniform int iteration, repeat_from;
 layout(FORMAT_ldm_sky) uniform image2D ldm_sky; // Σ V·L·cosθ so far; the last batch leaves E/π
 
-uniform bool region_mean = false; //! the environment's mean over each axis's share of the sphere, not its value on the axis
+uniform bool region_mean = false; //! averages the environment over each axis's share of the sphere
 
 // The mean over a cone as wide as an axis's region, by 16 directions on a spiral.
 vec3 sky_of(vec3 direction) {

@@ -22,7 +22,7 @@ layout(std430) readonly buffer rsm_views { ShadowView light_views[]; };
 uniform int iteration, repeat_from;
 layout(FORMAT_out_indirect_specular) writeonly uniform image2D out_indirect_specular;
 
-uniform float lit_distance = 0.01; //! [1e-4, 0.5] how far behind a light map's depth a point still is lit, as a share of the scene's diagonal
+uniform float lit_distance = 0.01; //! [1e-4, 0.5] depth behind a shadow map that is still lit, share of the scene's diagonal
 
 // What a surface at x sends on of the lights that see it.
 vec3 sent_on(vec3 x) {

@@ -15,7 +15,7 @@ layout(std430) writeonly buffer debug_rays {
     RecordedRay rays[];
 };
 
-uniform vec2 pixel = vec2(0.5);  //! [0, 1] whose rays are kept, as shares of the picture's width and height from the top left
+uniform vec2 pixel = vec2(0.5);  //! [0, 1] the inspected pixel, as shares of width and height from the top left
 
 void main() {
     int slot = int(gl_GlobalInvocationID.x);

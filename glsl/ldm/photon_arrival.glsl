@@ -13,12 +13,12 @@
 uniform sampler2D gbuffer_geometric_normal;
 uniform sampler2D gbuffer_depth;
 
-uniform int visibility = 0;           //! {depth, plane} how far what the camera sees may lie from where the photon arrived: along the view, or off the pixel's plane
+uniform int visibility = 0;           //! {depth, plane} a photon is seen if it is near the pixel's depth, or near the pixel's plane
 uniform float visibility_distance = 0.005; //! [1e-5, 0.5] that distance, as a share of the scene's diagonal
-uniform float guard_band = 0.0;       //! [0, 0.5] visibility plane: photons that arrive beside the picture, by up to this share of its size, count too where they lie on the plane of the nearest pixel: their footprints reach into it
-uniform bool snap = false;            //! photons arrive on the plane of the pixel that they project to, where that lies within a texel of the map's depth
+uniform float guard_band = 0.0;       //! [0, 0.5] border around the picture in which photons still count, share of its size
+uniform bool snap = false;            //! moves photons onto their pixel's plane when it is within a texel of the depth
 uniform float footprint_scale = 1.0;  //! [0.25, 8] footprints are as many times as long and wide as the photon's differential
-uniform float region_spread = 0.0;    //! [0, 4] footprints also spread with the distance by this share of the width √(2π/N) of an axis's region, which the axis stands for
+uniform float region_spread = 0.0;    //! [0, 4] widens footprints with distance by this share of an axis's region, √(2π/N)
 uniform float footprint_limit = 0.25; //! [0.001, 10] longest side of a footprint, as a share of the scene's diagonal
 uniform int footprint_excess = 0;     //! {discard, shrink} what becomes of photons with a longer one
 

@@ -18,7 +18,7 @@ uniform sampler2DArray rsm_depth;
 layout(std430) readonly buffer rsm_views { ShadowView light_views[]; };
 layout(std430) writeonly buffer photons_emitters { Emitter emitters[]; };
 
-uniform bool exact_split = false; //! a photon's shares add up to ρ·Φ exactly: divided by the sum of cosines instead of N/2
+uniform bool exact_split = false; //! divides a photon's flux by the sum of cosines instead of N/2
 
 // Whether another view of the same point light shows this direction better.
 bool outside_window(ShadowView view, vec2 ndc) {

@@ -4,10 +4,10 @@
 // and its neighbours in the list: the surfaces next to x against and along the view, in one walk.
 #include "ldm/walk.glsl"
 
-uniform int own_surface = 0;      //! {tolerance, nearest} which nodes are x's own surface: those nearer than the tolerance, or the nearest one
+uniform int own_surface = 0;      //! {tolerance, nearest} x's own surface: nodes nearer than the tolerance, or the nearest node
 uniform float tolerance = 0.5;    //! [0, 8] (texels) self-intersection: nodes nearer than this along the view are x's own surface
 uniform float normal_offset = 0.0; //! [0, 4] (texels) x moves off its surface by this times the sine between normal and view
-uniform bool node_planes = false; //! depths are evaluated on the node's plane at x's place in the texel (needs ldm.nodes=plane), not taken at the texel's middle
+uniform bool node_planes = false; //! evaluates depth on the node's plane at x (needs ldm.nodes=plane)
 
 const float k_no_hit = 1.0e30;
 

@@ -5,7 +5,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(FORMAT_debug_ldm_layers) writeonly uniform image2D debug_ldm_layers;
 
-uniform int quantity = 0; //! {depth, slope, albedo} depth: 0 at the near end, 1 at the far end; slope: of the depth, ½ is level (ldm.nodes=plane); albedo (ldm.nodes=surface)
+uniform int quantity = 0; //! {depth, slope, albedo} slope needs ldm.nodes=plane, albedo ldm.nodes=surface
 uniform int layer = 0;    //! [0, 1023] of the first tile
 uniform int columns = 4;  //! [1, 16] of tiles
 uniform int rows = 3;     //! [1, 16] of tiles

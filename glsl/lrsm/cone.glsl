@@ -16,10 +16,10 @@ uniform float hit_aperture = 2.0;     //! [0, 90] (degrees) hit_then_sample: of 
 uniform bool exact_hits = false;      //! static hit_then_sample: the hit is found from voxel to voxel instead of by a thin cone
 uniform float hit_radius = 1.5;       //! [0.25, 16] (voxels) hit_then_sample: radius of the sphere that is looked up
 
-uniform int near_spheres = 0;        //! [0, 8] hit_then_sample: spheres between the surface and where cones start, lit by the maps alone
+uniform int near_spheres = 0;        //! [0, 8] hit_then_sample: spheres looked up between the surface and the cone's start
 uniform float near_diameter = 0.5;   //! [0.05, 2] (voxels) of these spheres
 
-uniform int hit_lookup = 0; //! {layers, map} hit_then_sample: layers: a sphere in the layers; map: the ray's own walk over the reflective shadow maps, next to the surface and around where voxels block it
+uniform int hit_lookup = 0; //! {layers, map} light at the hit: a sphere in the layers, or a walk over the shadow maps
 
 // Where voxels block the cone; below 0: nowhere. `came_in`, `leaves`: where the voxels that do begin and end along it.
 float find_lit_hit(VoxelGrid grid, vec3 apex, vec3 direction, float from, out float came_in, out float leaves) {

@@ -11,7 +11,7 @@ layout(std430) writeonly buffer debug_cones {
     RecordedSphere spheres[];
 };
 
-uniform vec2 pixel = vec2(0.5);  //! [0, 1] whose cones are kept, as shares of the picture's width and height from the top left
+uniform vec2 pixel = vec2(0.5);  //! [0, 1] the inspected pixel, as shares of width and height from the top left
 
 // Called by trace_lit_cone and sample_view.
 int kept = 0, seen = 0, seen_layers = 0;

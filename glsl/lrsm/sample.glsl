@@ -19,7 +19,7 @@ layout(std430) readonly buffer lrsm_partitions { Partition partitions[]; };
 layout(std430) readonly buffer lrsm_table { int table[]; };
 
 uniform int estimator = 0;               //! {published, lit_fraction} how a sphere's light is found
-uniform bool normalised_normals = false; //! N from the filtered normal's direction alone: its length darkens as well as culls
+uniform bool normalised_normals = false; //! N from the filtered normal's direction alone, not its length
 uniform bool layers_by_sphere = false;   //! every layer that the sphere overlaps, instead of those that hold its centre
 uniform float depth_window = 1.0;        //! [0.25, 4] V's range as a multiple of the sphere's radius
 uniform float smallest_sigma = 0.004;    //! [0, 0.1] floor of the depth's standard deviation, as a share of the layer's range

@@ -17,12 +17,12 @@
 
 uniform int directions = 8;             //! [1, 64] image directions marched around a pixel
 uniform int steps = 8;                  //! [1, 512] samples along each; never more than texels
-uniform float step_power = 1.0;         //! [1, 4] samples lie at (i/steps)^step_power of the way: 1 evenly as published, more for more of them near
+uniform float step_power = 1.0;         //! [1, 4] samples lie at (i/steps)^step_power; 1: evenly, as published
 uniform float angle_bias = 10.0;        //! [0, 60] (degrees) occluders that rise less above the tangent plane do not count
-uniform bool bias_lifts_tangent = true; //! as published, the angle below the bias counts as open; off: it only rejects samples
+uniform bool bias_lifts_tangent = true; //! the angle below the bias counts as open; off: it only rejects samples
 uniform int zenith = 0;                 //! {camera_axis, view_ray} what elevations are measured from (weighting cosine: always the view ray)
 uniform int weighting = 0;              //! {uniform, cosine} of the hemisphere: uniform as published
-uniform int interleave = 4;             //! [1, 8] (texels) neighbours in blocks of n × n march turned and shifted differently; 1: all the same
+uniform int interleave = 4;             //! [1, 8] (texels) blocks of n × n turn and shift their directions differently; 1: all the same
 
 const float k_half_pi = 1.57079632679;
 

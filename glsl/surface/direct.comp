@@ -20,7 +20,7 @@ layout(FORMAT_out_direct) writeonly uniform image2D out_direct;
 
 uniform bool shadows = true;         //! shadow maps are looked up; off: every light is seen from everywhere
 uniform int visibility = 0;          //! {shadow_map, cones} who tells what the light does not reach: cones through voxels are soft
-uniform bool receiver_plane = true;  //! compare each texel with the surface's plane at that texel; off: with the point's own depth
+uniform bool receiver_plane = true;  //! compares each texel with the receiver's plane; off: with the point's depth
 uniform float normal_offset = 0.125; //! [0, 16] (texels) how far a point is moved along its normal before it is looked up
 uniform float depth_bias = 0.3;      //! [0, 16] (texels) how much nearer to the light a point is taken to be
 uniform int filter_radius = 0;       //! [0, 4] (texels) percentage-closer filtering over (2r + 1)² texels

@@ -10,7 +10,7 @@ uniform sampler2DArray rsm_radiance; //! optional
 uniform sampler2DArray rsm_normal;   //! optional
 uniform sampler2DArray rsm_depth;    //! optional
 
-uniform float map_tolerance = 0.5; //! [0.05, 8] (texels) hit_lookup map: how near to a texel's plane a ray has met it, and how far off the receiver's own plane a texel must lie
+uniform float map_tolerance = 0.5; //! [0.05, 8] (texels) hit_lookup map: distance to a texel's plane that counts as a hit
 uniform int map_steps = 64;        //! [4, 512] hit_lookup map: texels that a walk visits, at most
 
 // The ray's texels between two distances. True where it meets something: `met` is its distance, `light` what it sends

@@ -9,7 +9,7 @@ uniform sampler2D gbuffer_normal;
 uniform sampler2D gbuffer_depth;
 
 uniform float normal_power = 16.0;     //! [0, 256] upsampling: weights fall with ⟨n·n'⟩ to this power
-uniform float plane_distance = 0.01;   //! [1e-4, 1] upsampling: share of the distance to the viewer at which a texel off the plane counts 1/e
+uniform float plane_distance = 0.01;   //! [1e-4, 1] upsampling: plane distance with weight 1/e, share of the view distance
 
 vec4 upsampled(sampler2D coarse, ivec2 pixel, int interleave) {
     ivec2 size = textureSize(coarse, 0);

@@ -4,7 +4,7 @@ layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 uniform usampler3D voxels_bricks;
 layout(FORMAT_voxels_occlusion) writeonly uniform image3D voxels_occlusion;
 
-uniform int mip_rule = 0;  //! {mean, along_leaf} bits: how eight voxels become one, as in the mips; along_leaf needs directional leaves
+uniform int mip_rule = 0;  //! {mean, along_leaf} bits: how eight voxels become one; along_leaf needs directional leaves
 
 void main() {
     ivec3 at = ivec3(gl_GlobalInvocationID), size = imageSize(voxels_occlusion);

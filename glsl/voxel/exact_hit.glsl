@@ -7,7 +7,7 @@
 #include "voxel/cone.glsl"
 #include "voxel/traverse.glsl"
 
-uniform float hit_threshold = 0.5; //! [0.05, 0.99] hit_then_sample: occlusion from which the cone counts as blocked; exact_hits: how deep in blocking voxels the hit lies (voxels)
+uniform float hit_threshold = 0.5; //! [0.05, 0.99] occlusion that blocks the cone; exact_hits: the hit's depth in voxels
 
 float depth_in_voxels; // so far, without a gap
 float run_start;       // where the ray came into them; voxel units

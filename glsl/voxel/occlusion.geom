@@ -7,7 +7,7 @@ layout(triangles) in;
 layout(triangle_strip, max_vertices = 4) out;
 
 uniform int resolution_of_grid;
-uniform int fill = 0;  //! {centre, exact} centre: the voxel at each column's middle, as published; exact: every voxel that the triangle overlaps
+uniform int fill = 0;  //! {centre, exact} one voxel per column (published), or every voxel that is overlapped
 
 in Corner {
     vec3 position;

@@ -9,7 +9,7 @@
 uniform float map_near = 2.0;   //! [0, 64] (voxels) hit_lookup map: how far the walk from the surface goes
 uniform float map_before = 1.5; //! [0, 8] (voxels) hit_lookup map: where the walk around a hit begins, before it
 uniform float map_after = 1.5;  //! [0, 8] (voxels) hit_lookup map: where it ends, beyond the hit
-uniform int map_tries = 4;      //! [1, 16] hit_lookup map: hits that may prove wrong (all is lit around them, so that nothing opaque can be there), and one more
+uniform int map_tries = 4;      //! [1, 16] hit_lookup map: hits that are tried before the ray counts as unlit
 
 // Where voxels block a ray: between two distances, in metres. enters < 0: nowhere.
 struct Blocker {
