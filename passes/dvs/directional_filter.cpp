@@ -41,10 +41,8 @@ class VoxelFilterPass : public Pass {
   public:
     void describe(PassDescription& description) override {
         DirectionalFilter::describe(description);
-        description.parameters.add(
-            "directional_leaves", directional_leaves_,
-            "six directional values from the base level on, instead of from half the resolution, so that a surface "
-            "neither lights nor blocks what leaves it");
+        description.parameters.add("directional_leaves", directional_leaves_,
+                                   "six directional volumes from the base level on, not from half the resolution");
     }
     std::string unneeded(const SceneFacts& facts) const override {
         return facts.lights() || facts.emissive_materials ? "" : "the scene has neither lights nor emissive materials";

@@ -22,8 +22,7 @@ static void dispatch_voxels(PassContext& c, const std::string& program, bool occ
 }
 
 static const char* const k_occupied_only =
-    "one invocation for each occupied voxel, from a list; off: one for each voxel of the grid, as published, with the "
-    "same result";
+    "one invocation per occupied voxel; off: per voxel of the grid, as published";
 
 class VoxelDirectPass : public Pass {
   public:
@@ -60,9 +59,8 @@ class VoxelBouncePass : public Pass {
         DirectionalFilter::describe(description);
         description.constant("two_sided");
         description.parameters.add("occupied_only", occupied_only_, k_occupied_only);
-        description.parameters.add(
-            "bounces", bounces_, {1, 8}, "",
-            "indirect bounces of light at the pixel: 2, as published, are one between voxels and one at the pixel");
+        description.parameters.add("bounces", bounces_, {1, 8}, "",
+                                   "indirect bounces; 2, as published: one between voxels, one at the pixel");
     }
     std::string unneeded(const SceneFacts&) const override {
         return bounces_ > 1 ? "" : "one bounce, the one at the pixel, needs none between voxels";

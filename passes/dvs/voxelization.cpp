@@ -21,22 +21,17 @@ class VoxelizationPass : public Pass {
             description.constant(name);
         ParameterSet& p = description.parameters;
         p.add("resolution", resolution_, {8, 512}, "voxels", "along each side of the grid; a power of two");
-        p.add_choice(
-            "route", route_, {"raster", "compute"},
-            "raster: conservative, along the dominant axis, as published; compute: every voxel that a triangle "
-            "overlaps, without a rasterizer");
-        p.add_choice(
-            "averaging", averaging_, {"average", "last_writer", "sum", "gather"},
-            "how the fragments of a voxel become one. average: packed running means by compare-and-swap, as "
-            "published; last_writer: one triangle's surface; sum: integer sums by atomic adds, the same every "
-            "run; gather: the same sums without atomics, each voxel going through its triangles (compute route)");
-        p.add("planes", planes_,
-              "all but averaging=average: a voxel also knows where its mean plane lies, and exact hits are with "
-              "that plane; off: the whole voxel blocks");
-        p.add("static_once", static_once_,
-              "static geometry is voxelized when it changes only, as published; off: all of it in each frame");
+        p.add_choice("route", route_, {"raster", "compute"},
+                     "raster: conservative, as published; compute: every voxel that is overlapped");
+        // average: packed running means by compare-and-swap, as published. last_writer: one triangle's surface. sum:
+        // integer sums by atomic adds, the same in every run. gather: the same sums without atomics, each voxel going
+        // through its triangles (route=compute).
+        p.add_choice("averaging", averaging_, {"average", "last_writer", "sum", "gather"},
+                     "how the fragments of a voxel become one");
+        p.add("planes", planes_, "exact hits on each voxel's mean plane (not for averaging=average)");
+        p.add("static_once", static_once_, "voxelizes static geometry only when it changes, as published");
         p.add("room", room_, {1, 256}, "",
-              "entries of the list of occupied voxels, as a multiple of the voxels of one face of the grid");
+              "capacity of the list of occupied voxels, in voxels of one face of the grid");
     }
 
     std::string unneeded(const SceneFacts& facts) const override {

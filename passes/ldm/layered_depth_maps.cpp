@@ -24,20 +24,16 @@ class LayeredDepthMapsPass : public Pass {
         p.add("maps", maps_, {1, 4096}, "", "N: axes, and so maps; each serves both of its directions");
         p.add("resolution", resolution_, {4, 1024}, "texels", "width and height of each map");
         p.add_choice("route", route_, {"raster", "compute"},
-                     "raster: all maps of a batch in one draw, as published; compute: triangles × maps without a "
-                     "rasterizer");
+                     "raster: all maps of a batch in one draw, as published; compute: no rasterizer");
         p.add_choice("storage", storage_, {"lists", "arrays"},
-                     "lists: linked, as published; arrays: the lists of a batch are rewritten one after the other once "
-                     "they are complete, without links");
-        p.add_choice(
-            "nodes", nodes_, {"depth", "plane", "surface"},
-            "what a fragment leaves: its depth (8 bytes with the link), also the slope of its plane (12), also "
-            "its albedo (16)");
+                     "lists: linked, as published; arrays: rewritten in order once complete");
+        p.add_choice("nodes", nodes_, {"depth", "plane", "surface"},
+                     "what a node holds: depth (8 bytes), also its plane (12), also its albedo (16)");
         p.add("tilted", tilted_, "axes are turned off the world's axes, along which walls are often built");
         p.add("rotate", rotate_, "axes turn from frame to frame, for accumulation over frames");
         p.add("memory", memory_, {1, 16384}, "MiB", "largest size of a batch's lists; more maps take more batches");
         p.add("fragments", fragments_, {0.1, 1000}, "per texel",
-              "nodes that the first build of a batch has room for; it grows to what is asked for");
+              "initial capacity of a batch's nodes; enlarged on overflow");
     }
 
     void declare(Declaration& d) override {

@@ -20,12 +20,11 @@ class PhotonsPass : public Pass {
         for (const char* name : {"batch", "emitter_count", "value_count"})
             description.constant(name);
         description.parameters.add("second_axes", second_axes_, {0, 64}, "axes",
-                                   "a second bounce: photons that arrive are split again over so many axes of their "
-                                   "batch (needs ldm.nodes=surface); 0: one bounce, as published");
+                                   "second bounce: axes per photon (needs ldm.nodes=surface); 0: off, as published");
         description.parameters.add("third_axes", third_axes_, {0, 16}, "axes",
-                                   "a third bounce, likewise (needs second_axes)");
+                                   "third bounce: axes per photon (needs second_axes)");
         description.parameters.add("photons", room_, {0.001, 1}, "per photon traced",
-                                   "share of a batch's photons that the first build has room for; it grows");
+                                   "initial capacity, share of a batch's photons; enlarged on overflow");
     }
 
     std::string unneeded(const SceneFacts& facts) const override {

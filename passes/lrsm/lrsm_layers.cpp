@@ -19,7 +19,7 @@ class LrsmLayersPass : public Pass {
         p.add("adaptive", adaptive_, "boundaries from histograms of depth and cosine instead of equal parts");
         p.add("skip_empty", skip_empty_, "layers that hold no texel are neither stored nor sampled");
         p.add("pool", pool_, {0, 128}, "layers",
-              "layers that storage is made for when empty ones are skipped; 0: as many as there can be");
+              "capacity in layers when empty ones are skipped; 0: all that there can be");
     }
 
     std::string unneeded(const SceneFacts& facts) const override {

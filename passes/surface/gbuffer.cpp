@@ -7,9 +7,8 @@ class GbufferPass : public Pass {
   public:
     void describe(PassDescription& description) override {
         description.program("draw", {"surface/gbuffer.vert", "surface/gbuffer.frag"});
-        description.parameters.add(
-            "cull_back_faces", cull_back_faces_,
-            "skip back faces of materials that are not double-sided (the ground rule is two-sided)");
+        description.parameters.add("cull_back_faces", cull_back_faces_,
+                                   "skips back faces of materials that are not double-sided");
     }
 
     void declare(Declaration& d) override {

@@ -18,13 +18,11 @@ class OcclusionVoxelsPass : public Pass {
         ParameterSet& p = description.parameters;
         p.add("resolution", resolution_, {8, 512}, "voxels", "along each side of the grid; a power of two");
         p.add_choice("route", route_, {"raster", "compute"},
-                     "raster: dominant-axis projection, as published; compute: every voxel that a triangle overlaps, "
-                     "without a rasterizer");
+                     "raster: dominant axis, as published; compute: every voxel that is overlapped");
         p.add_choice("storage", storage_, {"bytes", "bits"},
-                     "bytes: one a voxel, as published; bits: one a voxel, eight to a byte, written in eight rounds "
-                     "(route compute)");
+                     "one byte per voxel (published), or one bit in eight rounds (route=compute)");
         p.add("directional_leaves", directional_leaves_,
-              "six volumes, one for each way that a surface may face, so that a surface does not block what leaves it");
+              "six volumes by facing, so that a surface does not block what leaves it");
     }
 
     void declare(Declaration& d) override {
