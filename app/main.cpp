@@ -35,6 +35,8 @@ int main(int argc, char** argv) {
     add_chart_command(app, chosen);
     add_table_command(app, chosen);
     add_stability_command(app, chosen);
+    add_list_command(app, chosen);
+    add_completion_command(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp& help) {

@@ -22,6 +22,8 @@ void add_compare_command(CLI::App& app, CommandFunction& chosen);
 void add_chart_command(CLI::App& app, CommandFunction& chosen);
 void add_table_command(CLI::App& app, CommandFunction& chosen);
 void add_stability_command(CLI::App& app, CommandFunction& chosen);
+void add_list_command(CLI::App& app, CommandFunction& chosen);
+void add_completion_command(CLI::App& app, CommandFunction& chosen);
 
 int render_default();
 /// What `bounce` does without arguments: the window where there is a display, else the default shot to a file.
