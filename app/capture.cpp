@@ -2,6 +2,7 @@
 
 #include "commit.h"
 #include "core/error.h"
+#include "core/exr_file.h"
 #include "core/text.h"
 
 #include <algorithm>
@@ -129,13 +130,16 @@ void write_picture(const Session& session, const fs::path& path, const std::stri
         return;
     }
     LayeredImage image;
+    std::string default_layer;
     image.metadata = picture_metadata(session, resource);
     if (resource.empty()) {
         image.layers = read_parts(session).layers;
         if (image.layers.empty()) throw Error("graph '" + session.options().graph + "' makes no out.* part to write");
+        default_layer = image.layers.contains("out.radiance") ? "out.radiance" : image.layers.begin()->first;
     } else {
         const GpuTexture& texture = find_texture(session, resource);
         const TextureDesc& desc = texture.desc();
+        default_layer = desc.size.z == 1 ? resource : resource + ".0";
         if (desc.size.z == 1)
             image.layers[resource] = read_layer(texture);
         else {
@@ -149,7 +153,7 @@ void write_picture(const Session& session, const fs::path& path, const std::stri
             }
         }
     }
-    write_exr(path, image);
+    write_exr(path, image, default_layer);
 }
 
 } // namespace bounce

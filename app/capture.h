@@ -18,8 +18,9 @@ Image read_layer(const GpuTexture& texture, int mip = 0, int layer = 0);
 /// Every out.* part of the present picture but the display: three channels each, one for occlusion.
 LayeredImage read_parts(const Session& session);
 
-/// Writes the session's present picture. `.exr`: every out.* part as a named layer (or the one resource, each layer or
-/// slice of an array as "name.0", …); `.png`: out.display (or the resource, clamped to [0,1] and sRGB-encoded unless it
+/// Writes the session's present picture. `.exr`: every out.* part as a named layer, out.radiance also as the plain one
+/// that other programs show (or the one resource, plain; each layer or slice of an array as "name.0", …, the first also
+/// plain); `.png`: out.display (or the resource, clamped to [0,1] and sRGB-encoded unless it
 /// is 8-bit already). Throws Error (unknown resource with the nearest, unwritable path, other extension).
 void write_picture(const Session& session, const std::filesystem::path& path, const std::string& resource = "");
 

@@ -3,6 +3,7 @@
 #include "app/commands/command.h"
 #include "app/commands/usage_error.h"
 #include "app/hosts/headless.h"
+#include "app/origin.h"
 #include "core/error.h"
 #include "core/log.h"
 
@@ -21,6 +22,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(0, 1);
     app.fallthrough();
     CommandFunction chosen;
+    set_command_line(argc, argv);
     add_view_command(app, chosen);
     add_render_command(app, chosen);
     add_graph_command(app, chosen);
@@ -33,6 +35,8 @@ int main(int argc, char** argv) {
     add_chart_command(app, chosen);
     add_table_command(app, chosen);
     add_stability_command(app, chosen);
+    add_list_command(app, chosen);
+    add_completion_command(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp& help) {

@@ -7,24 +7,28 @@
 
 namespace bounce {
 
-Session::Session(SessionOptions options) : options_(std::move(options)), timer_mode_(probe_timer_mode()) {
-    shot_ = std::make_unique<Shot>(load_shot(options_.shot));
-    size_ = options_.size.value_or(glm::ivec2(shot_->width, shot_->height));
-    graph_ = std::make_unique<Graph>(find_graph(options_.graph), timer_mode_);
-    graph_->check_nan = graph_->check_nan || options_.check_nan;
+void apply_options(GraphModel& model, const SessionOptions& options) {
     ErrorList errors;
-    for (const auto& [name, text] : options_.sets) {
+    for (const auto& [name, text] : options.sets) {
         try {
-            graph_->model().set(name, text, ParameterOrigin::command_line);
+            model.set(name, text, ParameterOrigin::command_line);
         } catch (const Error& error) {
             errors.add(error.what());
         }
     }
     errors.throw_if_any("--set");
-    for (const auto& [id, on] : options_.switches)
-        graph_->model().switch_pass(id, on);
-    for (const std::string& id : graph_->model().off_for(options_.resource))
-        graph_->model().switch_pass(id, true);
+    for (const auto& [id, on] : options.switches)
+        model.switch_pass(id, on);
+    for (const std::string& id : model.off_for(options.resource))
+        model.switch_pass(id, true);
+}
+
+Session::Session(SessionOptions options) : options_(std::move(options)), timer_mode_(probe_timer_mode()) {
+    shot_ = std::make_unique<Shot>(load_shot(options_.shot));
+    size_ = options_.size.value_or(glm::ivec2(shot_->width, shot_->height));
+    graph_ = std::make_unique<Graph>(find_graph(options_.graph), timer_mode_);
+    graph_->check_nan = graph_->check_nan || options_.check_nan;
+    apply_options(graph_->model(), options_);
     load_scene_to_gpu();
     graph_->prepare(facts_, size_); // so that a bad graph is told at once
 }

@@ -25,6 +25,9 @@ struct SessionOptions {
     bool check_nan = false;
 };
 
+/// Values and switches, and the passes that make `resource`. Throws Error with everything that is wrong.
+void apply_options(GraphModel& model, const SessionOptions& options);
+
 class Session {
   public:
     /// Loads the shot and the graph, applies the options. Throws Error.

@@ -2,6 +2,7 @@
 #include "app/experiments/chart.h"
 #include "app/commands/command.h"
 #include "app/commands/session_options.h"
+#include "app/experiments/sweep.h"
 #include "app/hosts/headless.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -15,10 +16,13 @@ namespace bounce {
 namespace {
 
 struct ChartArguments {
-    std::vector<std::string> shots, sets, merge, parts;
-    std::string graphs = k_default_graph, sweep, size = "320x180", output, shard, against;
-    int warm_up = 3, frames = 10, samples = 0, device = -1;
+    SessionArguments session; ///< of every point
+    std::vector<std::string> shots, merge, parts;
+    std::string graphs = k_default_graph, sweep, output, shard, against, metric;
+    int warm_up = 3, frames = 10, samples = 0;
     double noise = 0.01;
+    bool resume = true;
+    ChartArguments() { session.size = "320x180"; }
 };
 
 /// "2/8": the third of eight.
@@ -33,10 +37,18 @@ std::pair<int, int> parse_shard(const std::string& text) {
     throw Error("--shard " + text + ": it is written i/n with i = 0 … n − 1");
 }
 
+void print_line(const std::string& line) {
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+}
+
 int run(const ChartArguments& a) {
+    ChartView view;
+    view.against = a.against;
+    if (!a.metric.empty()) view.metric = find_metric(a.metric).name;
     if (!a.merge.empty()) {
         std::vector<std::filesystem::path> folders(a.merge.begin(), a.merge.end());
-        merge_charts(folders, a.output, a.against);
+        merge_charts(folders, a.output, view, print_line);
         fmt::print("{}/chart.html\n", a.output);
         return 0;
     }
@@ -44,26 +56,27 @@ int run(const ChartArguments& a) {
     if (a.frames < 1 || a.warm_up < 0 || a.frames > 100000 || a.warm_up > 100000)
         throw Error("--frames is at least 1 and --warmup at least 0");
     if (a.samples == 0 && !(a.noise > 0 && a.noise < 1)) throw Error("--noise is between 0 and 1");
-    SessionArguments shared;
-    shared.sets = a.sets;
-    shared.size = a.size;
-    SessionOptions options = shared.options();
-    std::vector<ParameterValues> combinations = {ParameterValues{}};
-    if (!a.sweep.empty()) combinations = load_sweep(a.sweep).combinations();
+    const SessionOptions options = a.session.options();
+    Sweep sweep;
+    if (!a.sweep.empty()) sweep = load_sweep(a.sweep);
+    if (a.metric.empty() && !sweep.metric.empty()) view.metric = sweep.metric;
+    const std::vector<ParameterValues> combinations = sweep.combinations();
     ChartPlan plan;
     plan.folder = a.output;
-    plan.against = a.against;
+    plan.view = view;
+    plan.resume = a.resume;
     std::tie(plan.shard, plan.shards) = parse_shard(a.shard);
     for (const std::string& shot : a.shots) {
         for (const std::string& graph : split(a.graphs, ',')) {
             find_graph(graph); // a wrong name is told before anything is computed
             for (const ParameterValues& values : combinations) {
                 PointTask task;
-                task.shot = shot;
-                task.graph = graph;
-                task.values = options.sets;
-                task.values.insert(task.values.end(), values.begin(), values.end());
-                task.size = *options.size;
+                task.session = options;
+                task.session.shot = shot;
+                task.session.graph = graph;
+                task.session.sets.insert(task.session.sets.end(), values.begin(), values.end());
+                task.session.switches.insert(task.session.switches.begin(), sweep.switches.begin(),
+                                             sweep.switches.end());
                 task.warm_up = a.warm_up;
                 task.frames = a.frames;
                 task.reference_noise = a.noise;
@@ -74,11 +87,8 @@ int run(const ChartArguments& a) {
         }
         load_shot(shot);
     }
-    HeadlessContext context(a.device);
-    run_chart(plan, [](const std::string& line) {
-        fmt::print("{}\n", line);
-        std::fflush(stdout);
-    });
+    HeadlessContext context(a.session.device);
+    run_chart(plan, print_line);
     fmt::print("{}/chart.html\n", a.output);
     return 0;
 }
@@ -88,27 +98,33 @@ int run(const ChartArguments& a) {
 void add_chart_command(CLI::App& app, CommandFunction& chosen) {
     auto* command = app.add_subcommand("chart", "chart error against time over shots, graphs and parameters");
     auto a = std::make_shared<ChartArguments>();
-    command->add_option("shots", a->shots, "shots or scenes");
-    command->add_option("--graphs,-g", a->graphs, "graphs, separated by commas")->capture_default_str();
-    command->add_option("--sweep", a->sweep, "a sweep: name or .json (base values and lists to permute)");
-    command->add_option("--set", a->sets, "a parameter for every point: pass.name=value")->allow_extra_args(false);
+    command->add_option("shots", a->shots, "shots or scenes")->type_name("SHOT");
+    command->add_option("--graphs,-g", a->graphs, "graphs, separated by commas")
+        ->type_name("GRAPHS")
+        ->capture_default_str();
+    command->add_option("--sweep", a->sweep, "a sweep: name or .json (base values and lists to permute)")
+        ->type_name("SWEEP");
+    a->session.add_settings_to(*command);
     command
         ->add_option(
             "--resource", a->parts,
             "compare this part (out.ambient_occlusion) instead of what the graph's transport says; repeatable: "
             "their sum")
         ->allow_extra_args(false);
-    command->add_option("--size", a->size, "WxH of every picture")->capture_default_str();
     command->add_option("--warmup", a->warm_up, "frames before timing starts")->capture_default_str();
     command->add_option("--frames", a->frames, "frames that are timed")->capture_default_str();
     command->add_option("--noise", a->noise, "relative noise of the references")->capture_default_str();
     command->add_option("--spp", a->samples, "samples a pixel of the references, instead of --noise");
-    command->add_option("--device", a->device, "which EGL device");
     command->add_option("--shard", a->shard, "i/n: measure only every n-th point, from the i-th (0 … n − 1)");
     command->add_option("--against", a->against,
                         "draw the error over this parameter (d_max, or hbao_dmax.d_max) instead of over time");
-    command->add_option("--merge", a->merge, "join the points of these folders instead of measuring");
-    command->add_option("-o,--output", a->output, "the folder for chart.csv, .json, .svg, .html and the points")
+    command->add_option("--metric", a->metric, "draw errors by this metric (bounce list metrics)")->type_name("METRIC");
+    command->add_flag("--resume,!--no-resume", a->resume,
+                      "keep points that are measured already (the default), or measure all again");
+    command->add_option("--merge", a->merge, "join the points of these folders instead of measuring")
+        ->type_name("FILE");
+    command->add_option("-o,--output", a->output, "the folder for chart.csv, .json, .svg, .html, .md and the points")
+        ->type_name("FILE")
         ->required();
     command->callback([a, &chosen] { chosen = [a] { return run(*a); }; });
 }

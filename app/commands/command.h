@@ -22,8 +22,12 @@ void add_compare_command(CLI::App& app, CommandFunction& chosen);
 void add_chart_command(CLI::App& app, CommandFunction& chosen);
 void add_table_command(CLI::App& app, CommandFunction& chosen);
 void add_stability_command(CLI::App& app, CommandFunction& chosen);
+void add_list_command(CLI::App& app, CommandFunction& chosen);
+void add_completion_command(CLI::App& app, CommandFunction& chosen);
 
-int render_default();
+/// What a person sees first: global illumination.
+inline constexpr const char* k_first_graph = "lrsm_tuned";
+int view_default();
 /// What `bounce` does without arguments: the window where there is a display, else the default shot to a file.
 int run_default();
 

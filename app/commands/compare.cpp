@@ -1,16 +1,17 @@
 // bounce compare: how far one picture is from another, part by part.
 #include "app/capture.h"
 #include "app/commands/command.h"
-#include "core/comparison.h"
+#include "app/experiments/comparison_text.h"
 #include "core/error.h"
 #include "core/heat_map.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace bounce {
 
 namespace {
+
+constexpr int k_max_window = 255;
 
 struct CompareArguments {
     std::string image, reference, heatmap;
@@ -20,81 +21,14 @@ struct CompareArguments {
     bool exposure_given = false;
     bool json = false, no_mask = false, per_surface = false;
     float ppd = k_flip_pixels_per_degree;
+    int window = 1;
 };
-
-nlohmann::ordered_json figures_json(const ErrorFigures& f) {
-    // JSON has no infinity: where the reference is black, relative figures are null.
-    return {{"pixels", f.pixels},
-            {"mean", f.mean},
-            {"reference_mean", f.reference_mean},
-            {"bias", f.bias},
-            {"mean_difference", f.mean_difference()},
-            {"rmse", f.rmse},
-            {"rmse_denoised", f.rmse_denoised()},
-            {"relative_rmse", f.relative_rmse},
-            {"relative_rmse_denoised", f.relative_rmse_denoised},
-            {"reference_noise", f.reference_noise},
-            {"relative_mse", f.relative_mse},
-            {"smape", f.smape},
-            {"relative_error_p99", f.relative_error_p99},
-            {"largest_error", f.largest_error}};
-}
-
-std::string comparison_json(const CompareArguments& arguments, const LayerComparison& comparison,
-                            const std::vector<SurfaceComparison>& surfaces, int pixels_a_side) {
-    nlohmann::ordered_json json;
-    json["image"] = arguments.image;
-    json["reference"] = arguments.reference;
-    json["means_over_pixels"] = pixels_a_side * pixels_a_side;
-    json["edges_masked"] = comparison.edges_masked;
-    json["kept_pixels"] = comparison.mask.share();
-    for (const PartComparison& part : comparison.parts) {
-        nlohmann::ordered_json entry = figures_json(part.figures);
-        entry["own_noise"] = part.own_noise;
-        entry["ssim"] = part.ssim;
-        entry["flip"] = part.flip;
-        entry["exposure"] = part.exposure;
-        json["parts"][part.part] = entry;
-    }
-    for (const SurfaceComparison& surface : surfaces) {
-        nlohmann::ordered_json entry = {{"part", surface.part}, {"material", surface.material}, {"axis", surface.axis}};
-        entry.update(figures_json(surface.figures));
-        json["surfaces"].push_back(entry);
-    }
-    return json.dump(2);
-}
-
-void print_table(const LayerComparison& comparison, const std::vector<SurfaceComparison>& surfaces, int pixels_a_side) {
-    fmt::print("{:28} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8} {:>7} {:>7}\n", "part", "mean",
-               "reference", "bias %", "RMSE %", "noise %", "w/o noise", "relMSE", "SMAPE", "p99", "SSIM", "FLIP");
-    auto row = [](const std::string& name, const ErrorFigures& f) {
-        return fmt::format("{:28} {:10.5g} {:10.5g} {:+9.2f} {:9.2f} {:9.2f} {:9.2f} {:8.4f} {:8.4f} {:8.4f}", name,
-                           f.mean, f.reference_mean, 100 * f.bias, 100 * f.relative_rmse, 100 * f.reference_noise,
-                           100 * f.relative_rmse_denoised, f.relative_mse, f.smape, f.relative_error_p99);
-    };
-    for (const PartComparison& part : comparison.parts) {
-        fmt::print("{} {:7.4f} {:7.4f}\n", row(part.part.empty() ? "(picture)" : part.part, part.figures), part.ssim,
-                   part.flip);
-        if (part.part.find("ambient_occlusion") != std::string::npos) {
-            fmt::print("  in AO units: bias {:+.4f}, RMSE {:.4f}, without the reference's noise {:.4f}\n",
-                       part.figures.mean_difference(), part.figures.rmse, part.figures.rmse_denoised());
-        }
-    }
-    for (const SurfaceComparison& surface : surfaces) {
-        fmt::print("{}\n",
-                   row(fmt::format("  material {} facing {}", surface.material, surface.axis), surface.figures));
-    }
-    fmt::print("{} of the pixels count{}. RMSE and noise are relative to the reference's mean.\n",
-               fmt::format("{:.1f} %", 100 * comparison.mask.share()),
-               comparison.edges_masked ? ", away from edges" : "; no edge mask");
-    if (pixels_a_side > 1)
-        fmt::print(
-            "The image is {0} times as wide and high as the reference: compared are means over {0} x {0} pixels.\n",
-            pixels_a_side);
-}
 
 int compare(const CompareArguments& arguments) {
     if (!arguments.heatmap.empty()) check_output_folder(arguments.heatmap);
+    if (arguments.window < 1 || arguments.window > k_max_window || arguments.window % 2 == 0)
+        throw Error(
+            fmt::format("invalid --window '{}': expected an odd number from 1 to {}", arguments.window, k_max_window));
     bool image_display = false, reference_display = false;
     LayeredImage image = read_picture(arguments.image, image_display);
     const LayeredImage reference = read_picture(arguments.reference, reference_display);
@@ -109,23 +43,24 @@ int compare(const CompareArguments& arguments) {
     options.mask_edges = !arguments.no_mask;
     options.display_values = image_display;
     options.ppd = arguments.ppd;
+    options.window = arguments.window;
     if (arguments.exposure_given) options.exposure = float(arguments.exposure);
-    const LayerComparison comparison = compare_layers(image, reference, options);
-
-    std::vector<SurfaceComparison> surfaces;
+    ComparisonReport report{arguments.image, arguments.reference, compare_layers(image, reference, options), {},
+                            pixels_a_side,   arguments.window};
+    const LayerComparison& comparison = report.comparison;
     if (arguments.per_surface) {
         for (const PartComparison& part : comparison.parts) {
-            if (part.figures.mean == 0 && part.figures.reference_mean == 0) continue;
+            if (part.figures["mean"] == 0 && part.figures["reference_mean"] == 0) continue;
             const auto more = compare_surfaces(image, reference, part.part, comparison.mask);
-            surfaces.insert(surfaces.end(), more.begin(), more.end());
+            report.surfaces.insert(report.surfaces.end(), more.begin(), more.end());
         }
-        if (surfaces.empty()) throw Error("--per-surface: neither file has gbuffer.normal and gbuffer.material");
+        if (report.surfaces.empty()) throw Error("--per-surface: neither file has gbuffer.normal and gbuffer.material");
     }
     // The figures first: a false-colour picture that cannot be written does not cost them.
     if (arguments.json)
-        fmt::print("{}\n", comparison_json(arguments, comparison, surfaces, pixels_a_side));
+        fmt::print("{}\n", comparison_json(report));
     else
-        print_table(comparison, surfaces, pixels_a_side);
+        fmt::print("{}", comparison_text(report));
     if (!arguments.heatmap.empty()) {
         // The picture as a whole where there is one, unless a part was asked for.
         std::string part = comparison.parts.front().part;
@@ -148,19 +83,23 @@ void add_compare_command(CLI::App& app, CommandFunction& chosen) {
     command
         ->add_option("image", a->image,
                      "an .exr of named parts, or any picture; a whole multiple of the reference's size is averaged")
+        ->type_name("FILE")
         ->required();
-    command->add_option("reference", a->reference, "what it is compared with")->required();
+    command->add_option("reference", a->reference, "what it is compared with")->type_name("FILE")->required();
     command
         ->add_option("--resource", a->parts,
                      "only this part, or sum of parts (out.emitted+out.indirect_diffuse); repeatable")
         ->allow_extra_args(false);
-    command->add_option("--heatmap", a->heatmap, "write the relative error in false colour to this .png");
+    command->add_option("--heatmap", a->heatmap, "write the relative error in false colour to this .png")
+        ->type_name("FILE");
     command->add_option("--heatmap-top", a->heatmap_top, "the error (of the reference's mean) that is brightest there")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
     command->add_flag("--json", a->json, "print JSON");
     command->add_flag("--no-mask", a->no_mask, "count edge pixels too");
     command->add_flag("--per-surface", a->per_surface, "also by material and dominant normal axis");
+    command->add_option("--window", a->window, "also compare means over N x N pixels inside the mask (N odd)")
+        ->capture_default_str();
     auto* exposure =
         command->add_option("--exposure", a->exposure, "stops, for SSIM and FLIP; else from the reference's mean");
     command->add_option("--ppd", a->ppd, "pixels per degree of the viewer, for FLIP")

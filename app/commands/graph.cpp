@@ -36,8 +36,10 @@ void add_graph_command(CLI::App& app, CommandFunction& chosen) {
     auto* command =
         app.add_subcommand("graph", "print a graph's plan: passes in order, reads and writes, bytes, what declined");
     auto arguments = std::make_shared<GraphArguments>();
-    command->add_option("graph", arguments->name, "a graph: name or .json")->required();
-    command->add_option("--shot", arguments->shot, "the shot that it is planned for")->capture_default_str();
+    command->add_option("graph", arguments->name, "a graph: name or .json")->type_name("GRAPH")->required();
+    command->add_option("--shot", arguments->shot, "the shot that it is planned for")
+        ->type_name("SHOT")
+        ->capture_default_str();
     command->add_option("--set", arguments->sets, "a parameter: pass.name=value")->allow_extra_args(false);
     command->add_option("--size", arguments->size, "WxH instead of the shot's size");
     command->add_flag("--graphviz", arguments->graphviz, "as a Graphviz digraph (dot -Tsvg)");

@@ -10,7 +10,7 @@ namespace bounce {
 void add_info_command(CLI::App& app, CommandFunction& chosen) {
     auto* command = app.add_subcommand("info", "tell what a scene or shot holds, what was skipped, and what it needs");
     auto file = std::make_shared<std::string>();
-    command->add_option("file", *file, "a scene (.gltf, .glb) or shot")->required();
+    command->add_option("file", *file, "a scene (.gltf, .glb) or shot")->type_name("SHOT")->required();
     command->callback([file, &chosen] {
         chosen = [file] {
             fmt::print("{}", describe_scene(load_shot(*file)));

@@ -13,7 +13,9 @@ void add_new_command(CLI::App& app, CommandFunction& chosen) {
         command->add_subcommand("pass", "a compute shader and its entry in a graph file (and C++, with --cpp)");
     auto request = std::make_shared<NewPass>();
     pass->add_option("name", request->name, "lower case letters and digits")->required();
-    pass->add_option("--graph,-g", request->graph, "the graph file that gets the entry")->capture_default_str();
+    pass->add_option("--graph,-g", request->graph, "the graph file that gets the entry")
+        ->type_name("GRAPH")
+        ->capture_default_str();
     pass->add_flag("--cpp", request->cpp, "also write a C++ pass class");
     pass->callback([request, &chosen] {
         chosen = [request] {

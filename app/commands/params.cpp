@@ -1,10 +1,9 @@
 // bounce params: every parameter of a graph (or of all graphs), as text or Markdown.
 #include "app/commands/command.h"
+#include "core/asset_files.h"
 #include "core/error.h"
-#include "core/paths.h"
 #include "graph/model.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace bounce {
@@ -44,13 +43,8 @@ int print_params(const ParamsArguments& arguments) {
         print_graph_parameters(find_graph(arguments.graph), arguments.markdown);
         return 0;
     }
-    std::vector<std::filesystem::path> graphs;
-    for (const auto& entry : std::filesystem::directory_iterator(assets_folder() / "graphs")) {
-        if (entry.path().extension() == ".json") graphs.push_back(entry.path());
-    }
-    std::sort(graphs.begin(), graphs.end());
-    for (const auto& graph : graphs)
-        print_graph_parameters(graph, arguments.markdown);
+    for (const std::string& graph : asset_names("graphs"))
+        print_graph_parameters(find_graph(graph), arguments.markdown);
     return 0;
 }
 } // namespace
@@ -58,7 +52,7 @@ int print_params(const ParamsArguments& arguments) {
 void add_params_command(CLI::App& app, CommandFunction& chosen) {
     auto* command = app.add_subcommand("params", "list the parameters of a graph, or of all graphs");
     auto arguments = std::make_shared<ParamsArguments>();
-    command->add_option("graph", arguments->graph, "a graph: name or .json");
+    command->add_option("graph", arguments->graph, "a graph: name or .json")->type_name("GRAPH");
     command->add_flag("--markdown", arguments->markdown, "as Markdown tables");
     command->callback([arguments, &chosen] { chosen = [arguments] { return print_params(*arguments); }; });
 }

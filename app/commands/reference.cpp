@@ -4,6 +4,7 @@
 #include "app/experiments/transport.h"
 #include "app/progress.h"
 #include "core/error.h"
+#include "core/exr_file.h"
 #include "core/text.h"
 #include "reference/reference_image.h"
 
@@ -109,7 +110,7 @@ void write_reference(const ReferenceArguments& arguments, const ReferenceResult&
     else
         file.layers[arguments.resource] = result.image.layers.at(arguments.resource);
     file.metadata = add_metadata(result.image.metadata, arguments, result);
-    write_exr(path, file);
+    write_exr(path, file, arguments.resource.empty() ? "out.radiance" : arguments.resource);
 }
 
 /// Writes the reference. When that fails, what was computed must not be lost with it: the samples are in the cache, or
@@ -126,7 +127,7 @@ void write_or_save(const ReferenceArguments& arguments, const ReferenceResult& r
         LayeredImage file = result.image;
         file.metadata = add_metadata(result.image.metadata, arguments, result);
         try {
-            write_exr(refuge, file);
+            write_exr(refuge, file, "out.radiance");
         } catch (const Error& second) {
             throw Error(fmt::format("{}; nor could it be saved elsewhere: {}", error.what(), second.what()));
         }
@@ -207,8 +208,12 @@ int reference(ReferenceArguments arguments) {
 void add_reference_command(CLI::App& app, CommandFunction& chosen) {
     auto* command = app.add_subcommand("reference", "path-trace a shot: the truth that methods are compared with");
     auto a = std::make_shared<ReferenceArguments>();
-    command->add_option("shot", a->shot, "a shot (name or .json), or a scene (.gltf, .glb)")->required();
-    command->add_option("-o,--output", a->output, "x.exr (every part as a layer) or x.png")->required();
+    command->add_option("shot", a->shot, "a shot (name or .json), or a scene (.gltf, .glb)")
+        ->type_name("SHOT")
+        ->required();
+    command->add_option("-o,--output", a->output, "x.exr (every part as a layer) or x.png")
+        ->type_name("FILE")
+        ->required();
     command->add_option("--bounces", a->bounces, "scattering orders after direct light: 0, 1, … or 'unlimited'")
         ->capture_default_str();
     auto* samples = command->add_option("--spp", a->samples, "samples a pixel")->check(CLI::Range(2, 1 << 20));

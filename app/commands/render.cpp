@@ -90,22 +90,17 @@ void add_render_command(CLI::App& app, CommandFunction& chosen) {
     command
         ->add_option("-o,--output", arguments->output,
                      "x.exr (linear parts), x.png (display); %04d numbers every frame")
+        ->type_name("FILE")
         ->required();
     command->add_option("--frames", arguments->frames,
                         "render so many frames; the last is written, or all where the name holds %04d");
     command->add_option("--resource", arguments->resource, "write this one resource (gbuffer.normal …)");
-    command->add_option("--timings", arguments->timings, "write GPU times and bytes per pass to this .json");
+    command->add_option("--timings", arguments->timings, "write GPU times and bytes per pass to this .json")
+        ->type_name("FILE");
     command->add_flag("--watch", arguments->watch,
                       "reload graph and shaders between frames; errors keep the last good ones");
     command->add_flag("--quiet,-q", arguments->quiet, "print no table");
     command->callback([arguments, &chosen] { chosen = [arguments] { return render(*arguments); }; });
-}
-
-int render_default() {
-    RenderArguments arguments;
-    arguments.output = std::string(k_default_shot) + ".png";
-    arguments.frames = 3;
-    return render(arguments);
 }
 
 } // namespace bounce

@@ -8,9 +8,14 @@
 namespace bounce {
 
 void SessionArguments::add_to(CLI::App& command, bool shot_required) {
-    auto* shot_option = command.add_option("shot", shot, "a shot (name or .json), or a scene (.gltf, .glb)");
+    auto* shot_option =
+        command.add_option("shot", shot, "a shot (name or .json), or a scene (.gltf, .glb)")->type_name("SHOT");
     if (shot_required) shot_option->required();
-    command.add_option("--graph,-g", graph, "a graph: name or .json")->capture_default_str();
+    command.add_option("--graph,-g", graph, "a graph: name or .json")->type_name("GRAPH")->capture_default_str();
+    add_settings_to(command);
+}
+
+void SessionArguments::add_settings_to(CLI::App& command) {
     command.add_option("--set", sets, "a parameter: pass.name=value (repeatable; `bounce params` lists them)")
         ->allow_extra_args(false);
     command.add_option("--enable", enabled, "switch on a pass that the graph has off, and what it needs (repeatable)")

@@ -17,6 +17,8 @@ struct SessionArguments {
     bool check_nan = false;
 
     void add_to(CLI::App& command, bool shot_required);
+    /// All but the shot and the graph, for commands that take several.
+    void add_settings_to(CLI::App& command);
     /// Throws Error for a malformed --set or --size.
     SessionOptions options() const;
 };

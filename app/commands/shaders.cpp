@@ -72,7 +72,7 @@ int expand_all(const std::string& folder) {
 void add_shaders_command(CLI::App& app, CommandFunction& chosen) {
     auto* command = app.add_subcommand("shaders", "expand the shaders of every graph to standalone files");
     auto folder = std::make_shared<std::string>();
-    command->add_option("--expand", *folder, "the folder to write to")->required();
+    command->add_option("--expand", *folder, "the folder to write to")->type_name("FILE")->required();
     command->callback([folder, &chosen] { chosen = [folder] { return expand_all(*folder); }; });
 }
 

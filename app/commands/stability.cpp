@@ -1,8 +1,10 @@
 // bounce stability: how steady a picture is while the lights or objects of a shot move in small steps.
 #include "app/experiments/stability.h"
+#include "app/capture.h"
 #include "app/commands/command.h"
 #include "app/commands/session_options.h"
 #include "app/hosts/headless.h"
+#include "app/origin.h"
 #include "core/error.h"
 
 #include <fmt/format.h>
@@ -13,12 +15,25 @@ namespace {
 struct StabilityArguments {
     SessionArguments session;
     std::string resource = "out.indirect_diffuse";
-    int frames = 24, device = -1;
+    int frames = 24;
     float fps = 0;
+    std::string output;
 };
 
+/// As a table under the head of all results.
+std::string stability_markdown(const StabilityArguments& arguments, const Session& session,
+                               const StabilityFigures& figures) {
+    return origin_head({origin_here()}) +
+           fmt::format("\n| picture | shot | graph | frames | mean | change | flicker | 99th percentile |\n"
+                       "| --- | --- | --- | ---: | ---: | ---: | ---: | ---: |\n"
+                       "| {} | {} | {} | {} | {:.5g} | {:.3f} % | {:.3f} % | {:.3f} % |\n",
+                       arguments.resource, session.shot().name, session.graph().model().file().name, figures.frames,
+                       figures.mean, 100 * figures.change, 100 * figures.flicker, 100 * figures.flicker_p99);
+}
+
 int print_stability(const StabilityArguments& arguments) {
-    HeadlessContext context(arguments.device);
+    if (!arguments.output.empty()) check_output_folder(arguments.output);
+    HeadlessContext context(arguments.session.device);
     Session session(arguments.session.options());
     if (arguments.fps > 0) session.shot().fps = arguments.fps;
     StabilityFigures figures = measure_stability(session, arguments.resource, arguments.frames);
@@ -26,6 +41,8 @@ int print_stability(const StabilityArguments& arguments) {
                "%\n",
                arguments.resource, session.shot().name, session.graph().model().file().name, figures.frames,
                figures.mean, 100 * figures.change, 100 * figures.flicker, 100 * figures.flicker_p99);
+    if (!arguments.output.empty())
+        write_file_atomically(arguments.output, stability_markdown(arguments, session, figures));
     return 0;
 }
 } // namespace
@@ -33,15 +50,12 @@ int print_stability(const StabilityArguments& arguments) {
 void add_stability_command(CLI::App& app, CommandFunction& chosen) {
     auto* command = app.add_subcommand("stability", "flicker of a picture while a shot's lights or objects move");
     auto a = std::make_shared<StabilityArguments>();
-    command->add_option("shot", a->session.shot, "a shot with something that moves")->required();
-    command->add_option("--graph", a->session.graph, "a graph: name or .json")->capture_default_str();
-    command->add_option("--set", a->session.sets, "a parameter: pass.name=value")->allow_extra_args(false);
-    command->add_option("--size", a->session.size, "WxH instead of the shot's");
+    a->session.add_to(*command, true);
     command->add_option("--resource", a->resource, "which picture")->capture_default_str();
     command->add_option("--frames", a->frames, "frames to render")->check(CLI::Range(3, 100000))->capture_default_str();
     command->add_option("--fps", a->fps, "frames a second instead of the shot's: more make smaller steps")
         ->check(CLI::PositiveNumber);
-    command->add_option("--device", a->device, "which EGL device");
+    command->add_option("-o,--output", a->output, "also write the figures to this .md")->type_name("FILE");
     command->callback([a, &chosen] { chosen = [a] { return print_stability(*a); }; });
 }
 

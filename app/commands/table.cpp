@@ -6,6 +6,7 @@
 #include "app/experiments/error_table.h"
 #include "app/experiments/table_file.h"
 #include "app/hosts/headless.h"
+#include "app/origin.h"
 #include "core/error.h"
 #include "core/image.h"
 
@@ -29,7 +30,8 @@ std::string measured_errors(const TableArguments& arguments, const std::filesyst
         fmt::print(stderr, "{}, {} …\n", row.graph, row.name);
         measured.push_back(measure_row(row, [](const std::string& line) { fmt::print(stderr, "  {}\n", line); }));
     }
-    return (file.about.empty() ? "" : file.about + "\n\n") + error_table_markdown(file, measured);
+    const std::string about = file.about.empty() ? "" : file.about + "\n\n";
+    return origin_head({origin_here()}) + "\n" + about + error_table_markdown(file, measured);
 }
 
 std::string measured_costs(const TableArguments& arguments) {
@@ -43,7 +45,7 @@ std::string measured_costs(const TableArguments& arguments) {
         fmt::print(stderr, "{} …\n", column.name);
         measured.push_back(measure_column(file, column, size, arguments.warm_up, arguments.frames));
     }
-    return cost_table_markdown(file, measured);
+    return origin_head({origin_here()}) + "\n" + cost_table_markdown(file, measured);
 }
 
 int print_table(const TableArguments& arguments) {
@@ -62,7 +64,7 @@ void add_table_command(CLI::App& app, CommandFunction& chosen) {
     auto* command =
         app.add_subcommand("table", "costs beside a paper's figures, or errors against the reference, as Markdown");
     auto arguments = std::make_shared<TableArguments>();
-    command->add_option("table", arguments->table, "a table: name or .json")->required();
+    command->add_option("table", arguments->table, "a table: name or .json")->type_name("TABLE")->required();
     command->add_option("--size", arguments->size, "WxH instead of the shots' sizes");
     command->add_option("--warmup", arguments->warm_up, "frames before measuring")
         ->check(CLI::Range(0, 1000))
@@ -70,7 +72,8 @@ void add_table_command(CLI::App& app, CommandFunction& chosen) {
     command->add_option("--frames", arguments->frames, "frames that are measured")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
-    command->add_option("-o,--output", arguments->output, "write to this file instead of the terminal");
+    command->add_option("-o,--output", arguments->output, "write to this .md instead of the terminal")
+        ->type_name("FILE");
     command->add_option("--device", arguments->device, "EGL device to render on (see --list-devices)");
     command->callback([arguments, &chosen] { chosen = [arguments] { return print_table(*arguments); }; });
 }

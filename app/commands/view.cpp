@@ -4,7 +4,6 @@
 #include "app/ui/viewer_app.h"
 #include "core/error.h"
 
-#include <cstdlib>
 #include <fmt/format.h>
 #include <regex>
 
@@ -35,14 +34,6 @@ int view(const ViewArguments& arguments) {
     return 0;
 }
 
-bool display_is_there() {
-    for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY"}) {
-        const char* value = std::getenv(name);
-        if (value && *value) return true;
-    }
-    return false;
-}
-
 } // namespace
 
 void add_view_command(CLI::App& app, CommandFunction& chosen) {
@@ -52,8 +43,10 @@ void add_view_command(CLI::App& app, CommandFunction& chosen) {
     arguments->add_to(*command, false);
     command->add_option("--window", arguments->window, "WxH of the window");
     command->add_option("--frames", arguments->view.frames, "quit after so many rendered frames");
-    command->add_option("--capture-on-exit", arguments->view.capture_on_exit,
-                        "write the last picture to this .png or .exr");
+    command
+        ->add_option("--capture-on-exit", arguments->view.capture_on_exit,
+                     "write the last picture to this .png or .exr")
+        ->type_name("FILE");
     // For tests of the window.
     command->add_option("--dump-ui", arguments->view.dump_ui, "tell each drawn frame to this .json")->group("");
     command->add_option("--simulate-reset", arguments->view.simulate_reset, "lose the GPU after so many frames")
@@ -65,9 +58,10 @@ void add_view_command(CLI::App& app, CommandFunction& chosen) {
     });
 }
 
-int run_default() {
-    if (!display_is_there()) return render_default();
-    return view(ViewArguments());
+int view_default() {
+    ViewArguments arguments;
+    arguments.graph = k_first_graph;
+    return view(arguments);
 }
 
 } // namespace bounce

@@ -1,10 +1,11 @@
 #include "app/experiments/chart.h"
 
-#include "app/experiments/report.h"
+#include "app/experiments/point_content.h"
 #include "core/error.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 #include <set>
 
 namespace bounce {
@@ -21,6 +22,14 @@ static void make_folder(const fs::path& folder) {
     if (error) throw Error(fmt::format("cannot create the folder '{}': {}", folder.string(), error.message()));
 }
 
+static void sort_points(std::vector<ChartPoint>& points) {
+    std::sort(points.begin(), points.end(), [](const ChartPoint& a, const ChartPoint& b) {
+        const SessionOptions &s = a.task.session, &t = b.task.session;
+        return std::tie(s.shot, s.graph, s.sets, s.switches, a.key) <
+               std::tie(t.shot, t.graph, t.sets, t.switches, b.key);
+    });
+}
+
 std::vector<ChartPoint> load_points(const fs::path& folder) {
     std::vector<ChartPoint> points;
     if (!fs::is_directory(folder / "points")) return points;
@@ -28,64 +37,83 @@ std::vector<ChartPoint> load_points(const fs::path& folder) {
         if (entry.path().extension() == ".json")
             points.push_back(point_from_json(read_file(entry.path()), entry.path().string()));
     }
-    std::sort(points.begin(), points.end(), [](const ChartPoint& a, const ChartPoint& b) {
-        return std::tie(a.task.shot, a.task.graph, a.task.values) < std::tie(b.task.shot, b.task.graph, b.task.values);
-    });
+    sort_points(points);
     return points;
+}
+
+/// Points that were measured earlier, by the name of their task: to tell why one has to be measured again.
+static std::map<std::string, const ChartPoint*> by_task(const std::vector<ChartPoint>& points) {
+    std::map<std::string, const ChartPoint*> newest;
+    for (const ChartPoint& point : points) {
+        const ChartPoint*& known = newest[point.task.name()];
+        if (!known || known->measured < point.measured) known = &point;
+    }
+    return newest;
 }
 
 void run_chart(const ChartPlan& plan, const std::function<void(const std::string&)>& say) {
     make_folder(plan.folder / "points");
+    const std::vector<ChartPoint> found = load_points(plan.folder);
+    const std::map<std::string, const ChartPoint*> earlier = by_task(found);
     ErrorList errors;
-    std::vector<const PointTask*> mine;
-    for (size_t i = 0; i < plan.tasks.size(); ++i) {
-        if (int(i % size_t(plan.shards)) == plan.shard) mine.push_back(&plan.tasks[i]);
-    }
-    size_t done = 0;
-    for (const PointTask* task : mine) {
-        ++done;
-        fs::path path = point_path(plan.folder, task->key());
-        if (fs::exists(path)) {
-            say(fmt::format("{}/{} {}: there already", done, mine.size(), task->label()));
-            continue;
-        }
-        try {
-            ChartPoint point = measure_point(*task, say);
-            write_file_atomically(path, point_to_json(point));
-            const PointError& e = point.same_transport;
-            const std::string told =
-                point.absolute()
-                    ? fmt::format("RMSE {:.4f} ({:.4f} without the reference's noise), bias {:+.4f} in AO units",
-                                  e.rmse, e.rmse_without_noise, e.mean - e.reference_mean)
-                    : fmt::format("relative RMSE {:.2f} %, bias {:+.2f} %", 100 * e.relative_rmse, 100 * e.bias);
-            say(fmt::format("{}/{} {}: {:.3g} ms, {}", done, mine.size(), task->label(), point.total_ms, told));
-        } catch (const Error& error) {
-            errors.add(task->label() + ": " + error.what());
-            say(fmt::format("{}/{} {}: {}", done, mine.size(), task->label(), error.what()));
-        }
-    }
+    ContentReader contents;
     std::set<std::string> wanted;
-    for (const PointTask& task : plan.tasks)
-        wanted.insert(task.key());
+    size_t done = 0;
+    const size_t all = plan.tasks.size(), n = size_t(plan.shards), first = size_t(plan.shard);
+    const size_t mine = all > first ? (all - first + n - 1) / n : 0;
+    for (size_t i = 0; i < all; ++i) {
+        const PointTask& task = plan.tasks[i];
+        const bool own = i % n == first;
+        if (own) ++done;
+        auto tell = [&](const std::string& text) { say(fmt::format("{}/{} {}: {}", done, mine, task.label(), text)); };
+        try {
+            const PointContent content = contents.content_of(task);
+            const std::string key = point_key(task, content);
+            wanted.insert(key);
+            if (!own) continue;
+            const fs::path path = point_path(plan.folder, key);
+            if (fs::exists(path) && plan.resume) {
+                tell("there already");
+                continue;
+            }
+            if (const auto old = earlier.find(task.name()); old != earlier.end() && plan.resume)
+                tell("measured again; changed since: " + content_difference(old->second->content, content));
+            const ChartPoint point = measure_point(task, content, say);
+            write_file_atomically(path, point_to_json(point));
+            tell(fmt::format("{:.3g} ms, {}", point.total_ms, error_summary(point.same_transport, point.absolute())));
+        } catch (const Error& error) {
+            if (!own) continue; // whoever measures it tells
+            errors.add(task.label() + ": " + error.what());
+            tell(error.what());
+        }
+    }
     std::vector<ChartPoint> points = load_points(plan.folder);
     std::erase_if(points, [&](const ChartPoint& point) { return !wanted.contains(point.key); });
-    if (!points.empty()) write_report(points, plan.folder, plan.against);
+    if (!points.empty()) write_report(points, plan.folder, plan.view);
     errors.throw_if_any("chart");
 }
 
-void merge_charts(const std::vector<fs::path>& folders, const fs::path& folder, const std::string& against) {
+void merge_charts(const std::vector<fs::path>& folders, const fs::path& folder, const ChartView& view,
+                  const std::function<void(const std::string&)>& say) {
+    std::vector<ChartPoint> points;
     for (const fs::path& from : folders) {
         if (!fs::is_directory(from / "points"))
             throw Error(fmt::format("'{}' is no chart's folder: there is no points/ in it", from.string()));
+        for (ChartPoint& point : load_points(from))
+            points.push_back(std::move(point));
     }
     make_folder(folder / "points");
-    for (const fs::path& from : folders) {
-        for (const ChartPoint& point : load_points(from))
-            write_file_atomically(point_path(folder, point.key), point_to_json(point));
-    }
-    std::vector<ChartPoint> points = load_points(folder);
+    for (ChartPoint& point : load_points(folder))
+        points.push_back(std::move(point));
+    std::vector<std::string> left_out;
+    points = points_of_one_program(std::move(points), left_out);
+    for (const std::string& line : left_out)
+        say(line);
     if (points.empty()) throw Error("there are no points to merge");
-    write_report(points, folder, against);
+    for (const ChartPoint& point : points)
+        write_file_atomically(point_path(folder, point.key), point_to_json(point));
+    sort_points(points);
+    write_report(points, folder, view);
 }
 
 } // namespace bounce

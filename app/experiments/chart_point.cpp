@@ -5,6 +5,7 @@
 #include "core/text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -14,24 +15,35 @@ namespace bounce {
 using nlohmann::ordered_json;
 
 std::string PointTask::label() const {
-    std::string text = fmt::format("{} · {}", shot, graph);
-    for (const auto& [name, value] : values)
+    std::string text = fmt::format("{} · {}", session.shot, session.graph);
+    for (const auto& [name, value] : session.sets)
         text += fmt::format(" · {}={}", name, value);
+    for (const auto& [id, on] : session.switches)
+        text += fmt::format(" · {}{}", on ? "+" : "-", id);
     return text;
 }
 
 std::string PointTask::command() const {
-    std::string text = fmt::format("bounce render {} --graph {} --size {}x{} --frames {}", shot, graph, size.x, size.y,
-                                   warm_up + frames);
-    for (const auto& [name, value] : values)
+    std::string text = fmt::format("bounce render {} --graph {} --size {}x{} --frames {}", session.shot, session.graph,
+                                   size().x, size().y, warm_up + frames);
+    for (const auto& [name, value] : session.sets)
         text += fmt::format(" --set {}={}", name, value);
+    for (const auto& [id, on] : session.switches)
+        text += fmt::format(" {} {}", on ? "--enable" : "--disable", id);
     return text + " --timings t.json -o x.exr";
 }
 
-std::string PointTask::key() const {
+std::string PointTask::name() const {
     std::string text = fmt::format("{} {} {} {}", command(), frames, reference_noise, reference_samples);
     for (const std::string& part : parts)
         text += " " + part;
+    return text;
+}
+
+std::string point_key(const PointTask& task, const PointContent& content) {
+    std::string text = task.name() + "\n" + content.commit + "\n" + content.graph + "\n" + content.shot;
+    for (const auto& [pass, digest] : content.shaders)
+        text += "\n" + pass + " " + digest;
     // FNV-1a, 64 bits: short, stable across machines and versions of the standard library.
     uint64_t hash = 14695981039346656037ull;
     for (unsigned char c : text)
@@ -39,45 +51,32 @@ std::string PointTask::key() const {
     return fmt::format("{:016x}", hash);
 }
 
-static ordered_json error_json(const PointError& e) {
-    return {{"mean", e.mean},
-            {"reference_mean", e.reference_mean},
-            {"rmse_without_noise", e.rmse_without_noise},
-            {"bias", e.bias},
-            {"rmse", e.rmse},
-            {"relative_rmse", e.relative_rmse},
-            {"relative_mse", e.relative_mse},
-            {"p99", e.p99},
-            {"flip", e.flip},
-            {"ssim", e.ssim},
-            {"reference_noise", e.reference_noise}};
+static ordered_json content_json(const PointContent& content) {
+    return {{"commit", content.commit}, {"graph", content.graph}, {"shot", content.shot}, {"shaders", content.shaders}};
 }
 
-static PointError error_of(const ordered_json& j) {
-    PointError e;
-    e.mean = j.value("mean", 0.0); // points of before have none
-    e.reference_mean = j.value("reference_mean", 0.0);
-    e.rmse_without_noise = j.value("rmse_without_noise", 0.0);
-    e.bias = j.at("bias");
-    e.rmse = j.at("rmse");
-    e.relative_rmse = j.at("relative_rmse");
-    e.relative_mse = j.at("relative_mse");
-    e.p99 = j.at("p99");
-    e.flip = j.at("flip");
-    e.ssim = j.at("ssim");
-    e.reference_noise = j.at("reference_noise");
-    return e;
+static PointContent content_of(const ordered_json& json) {
+    PointContent content;
+    content.commit = json.at("commit");
+    content.graph = json.at("graph");
+    content.shot = json.at("shot");
+    for (const auto& [pass, digest] : json.at("shaders").items())
+        content.shaders[pass] = digest.get<std::string>();
+    return content;
 }
 
 std::string point_to_json(const ChartPoint& p) {
     ordered_json j;
     j["key"] = p.key;
-    j["shot"] = p.task.shot;
-    j["graph"] = p.task.graph;
+    const SessionOptions& session = p.task.session;
+    j["shot"] = session.shot;
+    j["graph"] = session.graph;
     j["values"] = ordered_json::object();
-    for (const auto& [name, value] : p.task.values)
+    for (const auto& [name, value] : session.sets)
         j["values"][name] = value;
-    j["size"] = {p.task.size.x, p.task.size.y};
+    for (const auto& [id, on] : session.switches)
+        j["switches"][id] = on;
+    j["size"] = {p.task.size().x, p.task.size().y};
     j["warm_up"] = p.task.warm_up;
     j["frames"] = p.task.frames;
     j["reference_goal"] = {{"noise", p.task.reference_noise}, {"samples", p.task.reference_samples}};
@@ -98,11 +97,14 @@ std::string point_to_json(const ChartPoint& p) {
     j["transport_bounces"] = p.transport_bounces;
     j["parts"] = p.parts;
     if (!p.task.parts.empty()) j["compared_parts"] = p.task.parts;
-    j["same_transport"] = error_json(p.same_transport);
-    j["full"] = error_json(p.full);
+    j["same_transport"] = metrics_json(p.same_transport);
+    j["full"] = metrics_json(p.full);
     j["kept_share"] = p.kept_share;
     j["renderer"] = p.renderer;
-    j["commit"] = p.commit;
+    j["driver"] = p.driver;
+    j["machine"] = p.machine;
+    j["measured"] = p.measured;
+    j["content"] = content_json(p.content);
     j["thumbnail_png"] = p.thumbnail_png;
     j["error_png"] = p.error_png;
     return j.dump(1) + "\n";
@@ -113,11 +115,15 @@ ChartPoint point_from_json(const std::string& text, const std::string& where) {
         ordered_json j = ordered_json::parse(text);
         ChartPoint p;
         p.key = j.at("key");
-        p.task.shot = j.at("shot");
-        p.task.graph = j.at("graph");
+        SessionOptions& session = p.task.session;
+        session.shot = j.at("shot");
+        session.graph = j.at("graph");
         for (const auto& [name, value] : j.at("values").items())
-            p.task.values.emplace_back(name, value.get<std::string>());
-        p.task.size = {j.at("size").at(0), j.at("size").at(1)};
+            session.sets.emplace_back(name, value.get<std::string>());
+        const ordered_json switches = j.value("switches", ordered_json::object());
+        for (const auto& [id, on] : switches.items())
+            session.switches.emplace_back(id, on.get<bool>());
+        session.size = glm::ivec2(j.at("size").at(0), j.at("size").at(1));
         p.task.warm_up = j.at("warm_up");
         p.task.frames = j.at("frames");
         p.task.reference_noise = j.at("reference_goal").at("noise");
@@ -133,11 +139,14 @@ ChartPoint point_from_json(const std::string& text, const std::string& where) {
         p.transport_bounces = j.at("transport_bounces");
         p.parts = j.value("parts", std::vector<std::string>{});
         p.task.parts = j.value("compared_parts", std::vector<std::string>{});
-        p.same_transport = error_of(j.at("same_transport"));
-        p.full = error_of(j.at("full"));
+        p.same_transport = metrics_from_json(j.at("same_transport"));
+        p.full = metrics_from_json(j.at("full"));
         p.kept_share = j.at("kept_share");
         p.renderer = j.at("renderer");
-        p.commit = j.at("commit");
+        p.driver = j.value("driver", ""); // points of before have none of these
+        p.machine = j.value("machine", "");
+        p.measured = j.value("measured", "");
+        if (j.contains("content")) p.content = content_of(j["content"]);
         p.thumbnail_png = j.at("thumbnail_png");
         p.error_png = j.at("error_png");
         return p;
@@ -150,16 +159,18 @@ bool ChartPoint::absolute() const {
     return only_occlusion(parts);
 }
 
-double ChartPoint::shown_error() const {
-    return absolute() ? same_transport.rmse : same_transport.relative_rmse;
+double ChartPoint::error(const Metric& metric) const {
+    const Metric& shown = metric_for(metric, absolute());
+    return std::abs(same_transport[shown.name] - shown.ideal);
 }
 
-void mark_pareto(std::vector<ChartPoint>& points) {
+void mark_pareto(std::vector<ChartPoint>& points, const Metric& metric) {
     for (ChartPoint& point : points) {
         point.on_front = std::none_of(points.begin(), points.end(), [&](const ChartPoint& other) {
-            if (other.task.shot != point.task.shot) return false;
-            bool no_worse = other.total_ms <= point.total_ms && other.shown_error() <= point.shown_error();
-            bool better = other.total_ms < point.total_ms || other.shown_error() < point.shown_error();
+            if (other.task.session.shot != point.task.session.shot) return false;
+            const double error = point.error(metric), other_error = other.error(metric);
+            bool no_worse = other.total_ms <= point.total_ms && other_error <= error;
+            bool better = other.total_ms < point.total_ms || other_error < error;
             return no_worse && better;
         });
     }

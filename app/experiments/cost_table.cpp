@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
-#include <glad/gl.h>
 #include <nlohmann/json.hpp>
 
 namespace bounce {
@@ -89,11 +88,12 @@ CostTableFile load_cost_table(const std::string& name) {
     file.counts = rows_of(json, "counts", "counters", errors);
     if (json.contains("errors")) {
         const ordered_json& wanted = json["errors"];
+        if (wanted.is_object() && wanted.contains("metrics")) file.error_metrics = metrics_at(wanted, "errors", errors);
         if (wanted.is_object() && wanted.contains("samples") && wanted["samples"].is_number_integer() &&
             wanted["samples"].get<int>() > 0)
             file.error_samples = wanted["samples"].get<int>();
         else
-            errors.add("'errors' is {\"samples\": of the reference, a pixel}");
+            errors.add("'errors' is {\"samples\": of the reference per pixel, \"metrics\": [names]}");
     }
     errors.throw_if_any(path.string());
     return file;
@@ -117,7 +117,6 @@ CostTableMeasured measure_column(const CostTableFile& file, const CostTableColum
         throw Error(problem.error.text());
 
     CostTableMeasured measured;
-    measured.renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     const Plan& plan = session.graph().plan();
     for (const CostTableRow& row : file.memory) {
         std::optional<double> sum;
@@ -147,20 +146,15 @@ CostTableMeasured measure_column(const CostTableFile& file, const CostTableColum
     }
     if (file.error_samples > 0) {
         ChartPoint point;
-        point.task.shot = column.shot;
-        point.task.size = session.size();
+        point.task.session = options;
+        point.task.session.size = session.size();
         point.task.warm_up = warm_up;
         point.task.frames = frames;
         point.task.reference_samples = file.error_samples;
         point.parts = session.graph().model().file().transport.parts;
         compare_with_reference(session, point, [](const std::string&) {});
         measured.absolute = point.absolute();
-        measured.rmse = point.same_transport.rmse_without_noise;
-        measured.bias = point.same_transport.mean - point.same_transport.reference_mean;
-        if (!measured.absolute) {
-            measured.rmse = *measured.rmse / point.same_transport.reference_mean;
-            measured.bias = point.same_transport.bias;
-        }
+        measured.errors = point.same_transport;
     }
     return measured;
 }
@@ -217,22 +211,17 @@ std::string cost_table_markdown(const CostTableFile& file, const std::vector<Cos
         out += "\n| --- |";
         for (size_t c = 0; c < measured.size(); ++c)
             out += " ---: |";
-        auto figure = [](const CostTableMeasured& m, double value, bool sign) {
-            std::string number = m.absolute ? fmt::format("{:.4f} AO", value) : fmt::format("{:.1f} %", 100 * value);
-            return sign && value >= 0 ? "+" + number : number;
-        };
-        out += "\n| bias |";
-        for (const CostTableMeasured& m : measured)
-            out += " " + figure(m, m.bias.value_or(0), true) + " |";
-        out += "\n| RMSE |";
-        for (const CostTableMeasured& m : measured)
-            out += " " + figure(m, m.rmse.value_or(0), false) + " |";
+        for (const std::string& name : file.error_metrics) {
+            const Metric& metric = find_metric(name);
+            out += "\n| " + metric.title + " |";
+            for (const CostTableMeasured& m : measured)
+                out += " " + metric_text(metric, m.errors, m.absolute) + " |";
+        }
         out += "\n\n";
     }
-    if (!measured.empty()) out += "Measured on " + measured.front().renderer + ".";
-    if (std::getenv("BOUNCE_CPU_TIME")) out += " Times are processor time of all threads together.";
-    if (!file.published_by.empty()) out += " In brackets: " + file.published_by + ".";
-    return out + "\n";
+    if (std::getenv("BOUNCE_CPU_TIME")) out += "Times are processor time of all threads together.\n";
+    if (!file.published_by.empty()) out += "In brackets: " + file.published_by + ".\n";
+    return out;
 }
 
 } // namespace bounce

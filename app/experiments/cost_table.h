@@ -6,10 +6,11 @@
 //     "memory":  [{"name": "Occlusion voxels", "resources": ["voxels.occlusion"], "published": {"Sponza": 156.4}}],
 //     "time":    [{"name": "Voxelization", "passes": ["occlusion_voxels"], "published": {"Sponza": 5.3}}],
 //     "counts":  [{"name": "Lists in all, MB", "counters": ["fragments of all maps"], "times": 8e-6, "published":
-//     {…}}], "errors":  {"samples": 256},   against the reference of each column's transport, if wanted "published_by":
-//     "LRSM paper, GTX 770" }
+//     {…}}], "errors":  {"samples": 256, "metrics": ["bias"]},   against the reference of each column's transport, if
+//     wanted "published_by": "LRSM paper, GTX 770" }
 
 #include "app/experiments/sweep.h"
+#include "core/metric_table.h"
 
 #include <functional>
 #include <glm/glm.hpp>
@@ -39,6 +40,7 @@ struct CostTableFile {
     std::vector<CostTableRow> memory, time;
     std::vector<CostTableRow> counts; ///< what passes counted, by label
     int error_samples = 0;            ///< of the reference that errors are against; 0: no errors
+    std::vector<std::string> error_metrics = {"bias", "relative_rmse_denoised"}; ///< a row each
 };
 
 /// Throws Error that lists every problem. Finds "name" in assets/tables too.
@@ -46,10 +48,9 @@ CostTableFile load_cost_table(const std::string& name);
 
 /// What one column measured: 10⁶ bytes and milliseconds by row; none where no part of the row ran.
 struct CostTableMeasured {
-    std::string renderer;
     std::vector<std::optional<double>> memory_mb, time_ms, counts;
-    std::optional<double> bias, rmse; ///< shares, or AO units where only occlusion is compared
-    bool absolute = false;
+    MetricValues errors;
+    bool absolute = false;             ///< only occlusion is compared: errors are told in AO units
     double total_mb = 0, total_ms = 0; ///< of the rows
 };
 

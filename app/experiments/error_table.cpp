@@ -85,10 +85,11 @@ ErrorTableFile load_error_table(const std::filesystem::path& path) {
     ErrorList errors;
     ErrorTableFile file;
     std::vector<std::string> known = k_shared_keys;
-    known.insert(known.end(), {"about", "surfaces", "rows"});
+    known.insert(known.end(), {"about", "surfaces", "metrics", "rows"});
     check_keys(json, "the table", known, errors);
     file.about = text_at(json, "about", "the table", errors, false);
     if (json.contains("surfaces")) file.surfaces = whole_number(json["surfaces"], 0, 16, "surfaces", errors);
+    if (json.contains("metrics")) file.metrics = metrics_at(json, "the table", errors);
     ErrorTableRow shared;
     read_row(json, "the table", shared, errors);
     known = k_shared_keys;
@@ -159,16 +160,13 @@ ErrorTableMeasured measure_row(const ErrorTableRow& row, const std::function<voi
 
     ComparisonOptions comparison;
     comparison.parts = {row.resource};
-    comparison.visual = false;
     const LayerComparison compared = compare_layers(picture, truth, comparison);
-    const ErrorFigures& figures = compared.parts.front().figures;
-    measured.bias = measured.absolute ? figures.mean_difference() : figures.bias;
-    measured.rmse = measured.absolute ? figures.rmse_denoised() : figures.relative_rmse_denoised;
+    measured.errors = compared.parts.front().figures;
     if (!measured.absolute) {
         for (const SurfaceComparison& surface : compare_surfaces(picture, truth, row.resource, compared.mask)) {
-            if (surface.figures.pixels * 100 >= compared.mask.count())
-                measured.surfaces.push_back(
-                    {surface_name(surface, shot.scene), surface.figures.bias, surface.figures.pixels});
+            const auto pixels = size_t(surface.figures["pixels"]);
+            if (pixels * 100 >= compared.mask.count())
+                measured.surfaces.push_back({surface_name(surface, shot.scene), surface.figures["bias"], pixels});
         }
     }
     return measured;
@@ -184,8 +182,12 @@ std::string error_table_markdown(const ErrorTableFile& file, const std::vector<E
                 surfaces.push_back(surface.name);
         if (!m.surfaces.empty()) break;
     }
-    std::string out = "| shot, size | graph | settings | bias | relative RMSE |";
-    std::string rule = "| --- | --- | --- | ---: | ---: |";
+    std::string out = "| shot, size | graph | settings |";
+    std::string rule = "| --- | --- | --- |";
+    for (const std::string& name : file.metrics) {
+        out += " " + find_metric(name).title + " |";
+        rule += " ---: |";
+    }
     if (surfaces.empty()) {
         out += " worst surface |";
         rule += " --- |";
@@ -205,10 +207,8 @@ std::string error_table_markdown(const ErrorTableFile& file, const std::vector<E
             out += fmt::format(" skipped: {} |\n", m.skipped);
             continue;
         }
-        if (m.absolute)
-            out += fmt::format(" {:+.4f} AO | {:.4f} AO |", m.bias, m.rmse);
-        else
-            out += fmt::format(" {} | {:.1f} % |", percent(m.bias), 100 * m.rmse);
+        for (const std::string& name : file.metrics)
+            out += " " + metric_text(find_metric(name), m.errors, m.absolute) + " |";
         if (surfaces.empty()) {
             const auto worst = std::max_element(
                 m.surfaces.begin(), m.surfaces.end(),

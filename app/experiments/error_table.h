@@ -2,7 +2,7 @@
 // Tables of errors: each row is a shot through a graph with some settings, held to the reference of the row's
 // transport.
 //   { "about": "…", "shot": "cornell", "size": [128, 128], "samples": 1024, "resource": "out.indirect_diffuse",
-//     "bounces": 1, "diffuse_only": true, "surfaces": 6,
+//     "bounces": 1, "diffuse_only": true, "surfaces": 6, "metrics": ["bias", "flip"],
 //     "rows": [{"name": "as published", "graph": "lrsm"},
 //              {"name": "walk", "graph": "lrsm_tuned", "set": {"gather.hit_lookup": "map"}, "multiple": 2},
 //              {"name": "and more", "adds": true, "set": {…}, "requires": "sponza/Sponza.gltf"}] }
@@ -11,6 +11,7 @@
 // `multiple`: the picture is that many times as wide and high as the reference, and is compared by means.
 
 #include "app/experiments/sweep.h"
+#include "core/metric_table.h"
 
 #include <filesystem>
 #include <functional>
@@ -34,6 +35,7 @@ struct ErrorTableRow {
 
 struct ErrorTableFile {
     std::string about;
+    std::vector<std::string> metrics = {"bias", "relative_rmse_denoised"}; ///< a column each
     int surfaces = 0; ///< columns of single surfaces, the largest of the first row's shot
     std::vector<ErrorTableRow> rows;
 };
@@ -46,9 +48,9 @@ struct SurfaceError {
 
 /// What a row measured.
 struct ErrorTableMeasured {
-    std::string skipped;       ///< the reason, where the row could not be measured: its scene is not there
-    bool absolute = false;     ///< bias and RMSE are in AO units
-    double bias = 0, rmse = 0; ///< relative to the reference's mean, its noise subtracted from the RMSE
+    std::string skipped;   ///< the reason, where the row could not be measured: its scene is not there
+    bool absolute = false; ///< errors are told in AO units
+    MetricValues errors;
     double frame_ms = 0;
     uint64_t bytes = 0;
     std::vector<SurfaceError> surfaces; ///< those that hold 1 % of the pixels or more, the largest first

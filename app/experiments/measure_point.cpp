@@ -1,16 +1,15 @@
 // Renders one point of a chart and compares it with the reference of its own transport and with the full one.
 #include "app/capture.h"
 #include "app/experiments/chart_point.h"
-#include "app/experiments/parts.h"
 #include "app/experiments/transport.h"
 #include "app/hosts/headless.h"
+#include "app/origin.h"
 #include "app/timings.h"
 #include "core/base64.h"
-#include "core/comparison.h"
 #include "core/error.h"
-#include "core/flip.h"
 #include "core/heat_map.h"
-#include "core/metrics.h"
+#include "core/text.h"
+#include "reference/reference_image.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,15 +18,6 @@
 namespace bounce {
 
 namespace {
-
-/// A reference with what a comparison needs beside its pixels.
-struct Truth {
-    Image image;
-    Mask mask;
-    Image8 display; ///< tone-mapped, at the exposure of the pair
-    float exposure = 0;
-    double noise = 0;
-};
 
 LayeredImage reference_for(const PointTask& task, const Shot& shot, const ReferenceSettings& settings,
                            const std::string& part, const std::function<void(const std::string&)>& say) {
@@ -40,7 +30,7 @@ LayeredImage reference_for(const PointTask& task, const Shot& shot, const Refere
         reference_image(shot, settings, task.warm_up + task.frames - 1, goal, [&](const ReferenceProgress& progress) {
             if (progress.share >= told + 0.25) {
                 told = progress.share;
-                say(fmt::format("reference of {}, {}: {:.0f} %", task.shot,
+                say(fmt::format("reference of {}, {}: {:.0f} %", task.session.shot,
                                 settings.bounces < 0 ? "all bounces" : fmt::format("{} bounces", settings.bounces),
                                 100 * progress.share));
             }
@@ -81,29 +71,6 @@ Image8 small_picture(const Image& display, int width) {
     return out;
 }
 
-PointError compare(const Image& picture, const LayeredImage& reference, const std::vector<std::string>& parts,
-                   const Mask& mask) {
-    Image truth = sum_of_parts(reference, parts);
-    PointError out;
-    ErrorFigures figures = error_figures(picture, truth, mask);
-    out.mean = figures.mean;
-    out.reference_mean = figures.reference_mean;
-    out.bias = figures.bias;
-    out.rmse = figures.rmse;
-    out.relative_rmse = figures.relative_rmse;
-    out.relative_mse = figures.relative_mse;
-    out.p99 = figures.relative_error_p99;
-    const bool light = !only_occlusion(parts);
-    float exposure = light ? automatic_exposure(truth, mask) : 0;
-    Image a = shown(picture, light, exposure), b = shown(truth, light, exposure);
-    out.flip = flip_mean(flip(a, b), mask);
-    out.ssim = ssim(a, b, mask);
-    out.reference_noise = noise_of_parts(reference, parts);
-    const double noise = out.reference_noise * figures.reference_mean;
-    out.rmse_without_noise = std::sqrt(std::max(0.0, figures.rmse * figures.rmse - noise * noise));
-    return out;
-}
-
 } // namespace
 
 void compare_with_reference(Session& session, ChartPoint& point, const std::function<void(const std::string&)>& say) {
@@ -113,42 +80,41 @@ void compare_with_reference(Session& session, ChartPoint& point, const std::func
     LayeredImage picture = read_parts(session);
 
     // The references are of the same shot at the same size.
-    Shot shot = load_shot(task.shot);
-    shot.width = task.size.x;
-    shot.height = task.size.y;
+    Shot shot = load_shot(task.session.shot);
+    shot.width = session.size().x;
+    shot.height = session.size().y;
     ReferenceSettings settings = transport_settings(graph.model());
     if (occlusion) settings.bounces = 0; // it has none
     LayeredImage same = reference_for(task, shot, settings, occlusion ? point.parts.front() : "out.radiance", say);
-    const glm::vec3 eye = evaluate_shot(shot, task.warm_up + task.frames - 1).camera.position;
-    Mask mask = edge_mask(same.layers.at("gbuffer.normal"), same.layers.at("gbuffer.position"), eye);
-    point.kept_share = mask.share();
-    Image own = sum_of_parts(picture, point.parts);
-    point.same_transport = compare(own, same, point.parts, mask);
+    ComparisonOptions options;
+    options.parts = {join(point.parts, "+")};
+    options.absent_is_black = true;
+    const LayerComparison comparison = compare_layers(picture, same, options);
+    point.kept_share = comparison.mask.share();
+    point.same_transport = comparison.parts.front().figures;
     if (occlusion) {
         point.full = point.same_transport; // more light does not change what is open
     } else {
-        ReferenceSettings all;
-        LayeredImage full = reference_for(task, shot, all, "out.radiance", say);
-        point.full = compare(sum_of_parts(picture, {"out.radiance"}), full, {"out.radiance"}, mask);
+        LayeredImage full = reference_for(task, shot, ReferenceSettings(), "out.radiance", say);
+        options.parts = {"out.radiance"};
+        point.full = compare_layers(picture, full, options).parts.front().figures;
     }
 
-    Image truth = sum_of_parts(same, point.parts);
-    const float exposure = occlusion ? 0 : automatic_exposure(truth, mask);
+    const Image truth = part_of(same, join(point.parts, "+"), "the reference");
+    Image own = part_or_black(picture, join(point.parts, "+"), truth);
+    const float exposure = comparison.parts.front().exposure;
     point.thumbnail_png = base64(encode_png(small_picture(shown(own, !occlusion, exposure), 240)));
-    point.error_png = base64(encode_png(heat_map(relative_error_map(own, truth), 0, 0.5f, mask)));
+    point.error_png = base64(encode_png(heat_map(relative_error_map(own, truth), 0, 0.5f, comparison.mask)));
 }
 
-ChartPoint measure_point(const PointTask& task, const std::function<void(const std::string&)>& say) {
+ChartPoint measure_point(const PointTask& task, const PointContent& content,
+                         const std::function<void(const std::string&)>& say) {
     ChartPoint point;
     point.task = task;
-    point.key = task.key();
+    point.content = content;
+    point.key = point_key(task, content);
 
-    SessionOptions options;
-    options.shot = task.shot;
-    options.graph = task.graph;
-    options.sets = task.values;
-    options.size = task.size;
-    Session session(options);
+    Session session(task.session);
     for (int frame = 0; frame < task.warm_up + task.frames; ++frame) {
         if (frame > 0) session.advance();
         if (frame == task.warm_up) session.graph().forget_timings();
@@ -170,8 +136,11 @@ ChartPoint measure_point(const PointTask& task, const std::function<void(const s
     point.transport_bounces = transport.bounces;
     point.parts = task.parts.empty() ? transport.parts : task.parts;
     compare_with_reference(session, point, say);
-    point.renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    point.commit = program_commit();
+    const Origin origin = origin_here();
+    point.renderer = origin.renderer;
+    point.driver = origin.driver;
+    point.machine = origin.machine;
+    point.measured = origin.date;
     return point;
 }
 

@@ -1,16 +1,19 @@
 #pragma once
 // A chart's files: CSV, JSON, SVG, and one self-contained HTML page.
 
-#include "app/experiments/chart_point.h"
+#include "app/experiments/svg_scatter.h"
 
 #include <filesystem>
 
 namespace bounce {
 
 std::string chart_csv(const std::vector<ChartPoint>& points);
-std::string chart_html(const std::vector<ChartPoint>& points, const std::string& against = "");
-/// Writes chart.csv, chart.json, chart.svg and chart.html into `folder`. Throws Error. `against`: see
-/// svg_scatter.
-void write_report(std::vector<ChartPoint> points, const std::filesystem::path& folder, const std::string& against = "");
+std::string chart_html(const std::vector<ChartPoint>& points, const ChartView& view = {});
+/// A table of the points, for reading beside prose.
+std::string chart_markdown(const std::vector<ChartPoint>& points);
+/// Errors in a few words: "bias +1.25 %, RMSE 12.30 %, …".
+std::string error_summary(const MetricValues& values, bool occlusion);
+/// Writes chart.csv, chart.json, chart.svg, chart.html and chart.md into `folder`. Throws Error.
+void write_report(std::vector<ChartPoint> points, const std::filesystem::path& folder, const ChartView& view = {});
 
 } // namespace bounce

@@ -70,7 +70,8 @@ struct Axis {
 
 /// The value of `against`, of whichever pass; 0 when the point does not set it.
 double parameter_of(const ChartPoint& point, const std::string& against) {
-    for (auto it = point.task.values.rbegin(); it != point.task.values.rend(); ++it) { // the last one set counts
+    for (auto it = point.task.session.sets.rbegin(); it != point.task.session.sets.rend();
+         ++it) { // the last one set counts
         if (it->first == against || it->first.ends_with("." + against)) return std::atof(it->second.c_str());
     }
     return 0;
@@ -91,12 +92,22 @@ std::string joined(std::vector<std::pair<double, double>> points, bool steps, co
     return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-dasharray=\"4 3\"/>\n", path, colour);
 }
 
+/// "RMSE in AO units", "|bias| in %, same transport", "1 - SSIM, same transport".
+std::string axis_title(const Metric& metric, bool occlusion) {
+    std::string title = metric.ideal == 0 ? metric.title : fmt::format("{:g} - {}", metric.ideal, metric.title);
+    if (metric.format.starts_with("+")) title = "|" + title + "|";
+    if (metric.unit == MetricUnit::share) title += " in %";
+    if (occlusion) return title + (metric.unit == MetricUnit::image ? " in AO units" : ", occlusion");
+    return title + ", same transport";
+}
+
 std::string plot(const std::string& shot, const std::vector<const ChartPoint*>& points,
-                 const std::map<std::string, int>& colours, int top, const std::string& against) {
+                 const std::map<std::string, int>& colours, int top, const ChartView& view) {
+    const std::string& against = view.against;
     const bool absolute = std::all_of(points.begin(), points.end(), [](auto* p) { return p->absolute(); });
-    auto error_of = [&](const ChartPoint* p) {
-        return absolute ? p->same_transport.rmse : p->same_transport.relative_rmse;
-    };
+    const Metric& metric = metric_for(find_metric(view.metric), absolute);
+    const bool share = metric.unit == MetricUnit::share;
+    auto error_of = [&](const ChartPoint* p) { return std::abs(p->same_transport[metric.name] - metric.ideal); };
     auto place_of = [&](const ChartPoint* p) { return against.empty() ? p->total_ms : parameter_of(*p, against); };
     std::vector<double> places, errors;
     for (const ChartPoint* p : points) {
@@ -118,20 +129,19 @@ std::string plot(const std::string& shot, const std::vector<const ChartPoint*>& 
         out += fmt::format("<line x1=\"{1}\" x2=\"{2}\" y1=\"{0:.1f}\" y2=\"{0:.1f}\" stroke=\"#ddd\"/><text x=\"{3}\" "
                            "y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>\n",
                            y(t), k_left, k_width - k_right, k_left - 6, y(t) + 4,
-                           absolute ? fmt::format("{:g}", t) : fmt::format("{:g} %", 100 * t));
+                           share ? fmt::format("{:g} %", 100 * t) : fmt::format("{:g}", t));
     }
     out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", (k_left + k_width - k_right) / 2,
                        bottom + 36, against.empty() ? "GPU time of a frame, ms" : escape_markup(against));
     out += fmt::format("<text transform=\"translate(16 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-                       top + (k_top + k_height - k_bottom) / 2,
-                       absolute ? "RMSE of occlusion, AO units" : "relative RMSE, same transport");
+                       top + (k_top + k_height - k_bottom) / 2, escape_markup(axis_title(metric, absolute)));
 
     std::vector<std::pair<double, double>> front;
     std::map<std::string, std::vector<std::pair<double, double>>> lines;
     for (const ChartPoint* p : points) {
         const std::pair<double, double> at{x(place_of(p)), y(error_of(p))};
         if (p->on_front) front.push_back(at);
-        lines[p->task.graph].push_back(at);
+        lines[p->task.session.graph].push_back(at);
     }
     if (against.empty()) {
         out += joined(front, true, "#888");
@@ -140,12 +150,12 @@ std::string plot(const std::string& shot, const std::vector<const ChartPoint*>& 
             out += joined(line, false, k_colours[size_t(colours.at(graph)) % std::size(k_colours)]);
     }
     for (const ChartPoint* p : points) {
-        const char* colour = k_colours[size_t(colours.at(p->task.graph)) % std::size(k_colours)];
+        const char* colour = k_colours[size_t(colours.at(p->task.session.graph)) % std::size(k_colours)];
         out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\" fill-opacity=\"{}\" "
                            "stroke=\"{}\"><title>{}\n{:.3g} ms, {}, {:.1f} MiB{}</title></circle>\n",
                            x(place_of(p)), y(error_of(p)), p->on_front ? 5 : 3.5, colour, p->on_front ? 1.0 : 0.35,
                            colour, escape_markup(p->task.label()), p->total_ms,
-                           absolute ? fmt::format("{:.4f}", error_of(p)) : fmt::format("{:.2f} %", 100 * error_of(p)),
+                           escape_markup(metric.title + " " + metric_text(metric, p->same_transport, absolute)),
                            double(p->bytes) / 1048576.0, p->on_front ? ", on the Pareto front" : "");
     }
     int row = 0;
@@ -162,13 +172,14 @@ std::string plot(const std::string& shot, const std::vector<const ChartPoint*>& 
 
 } // namespace
 
-std::string svg_scatter(const std::vector<ChartPoint>& points, const std::string& against) {
+std::string svg_scatter(const std::vector<ChartPoint>& points, const ChartView& view) {
+    const std::string& against = view.against;
     std::map<std::string, std::vector<const ChartPoint*>> by_shot;
     std::map<std::string, int> colours;
     for (const ChartPoint& point : points) {
         if (!against.empty() && !(parameter_of(point, against) > 0)) continue; // no place on a logarithmic axis
-        by_shot[point.task.shot].push_back(&point);
-        colours.emplace(point.task.graph, 0);
+        by_shot[point.task.session.shot].push_back(&point);
+        colours.emplace(point.task.session.graph, 0);
     }
     int index = 0;
     for (auto& [graph, colour] : colours)
@@ -180,7 +191,7 @@ std::string svg_scatter(const std::vector<ChartPoint>& points, const std::string
         k_width, height);
     int top = 0;
     for (const auto& [shot, own] : by_shot) {
-        out += plot(shot, own, colours, top, against);
+        out += plot(shot, own, colours, top, view);
         top += k_height;
     }
     return out + "</svg>\n";

@@ -1,8 +1,9 @@
 #include "app/experiments/sweep.h"
 
+#include "core/asset_files.h"
 #include "core/error.h"
 #include "core/image.h"
-#include "core/paths.h"
+#include "core/metric_table.h"
 #include "core/text.h"
 
 #include <fmt/format.h>
@@ -44,15 +45,7 @@ static std::string text_of(const ordered_json& value) {
 }
 
 Sweep load_sweep(const std::string& name) {
-    std::filesystem::path path = name;
-    if (!std::filesystem::is_regular_file(path)) path = assets_folder() / "sweeps" / (name + ".json");
-    if (!std::filesystem::is_regular_file(path)) {
-        std::vector<std::string> names;
-        std::error_code ignored;
-        for (const auto& entry : std::filesystem::directory_iterator(assets_folder() / "sweeps", ignored))
-            names.push_back(entry.path().stem().string());
-        throw Error("there is no sweep '" + name + "'" + did_you_mean(name, names));
-    }
+    const std::filesystem::path path = find_asset("sweeps", "sweep", name);
     ordered_json json;
     try {
         json = ordered_json::parse(read_file(path), nullptr, true, true);
@@ -61,12 +54,21 @@ Sweep load_sweep(const std::string& name) {
     }
     ErrorList errors;
     Sweep sweep;
-    const std::vector<std::string> keys = {"about", "base", "lists", "each"};
+    const std::vector<std::string> keys = {"about", "base", "lists", "each", "enable", "disable", "metric"};
     if (!json.is_object()) throw Error(path.string() + ": a sweep is an object {\"base\": {…}, \"lists\": {…}}");
     for (const auto& [key, value] : json.items()) {
         if (key == "about" && value.is_string())
             sweep.about = value.get<std::string>();
-        else if (key == "base" && value.is_object()) {
+        else if (key == "metric" && value.is_string()) {
+            try {
+                sweep.metric = find_metric(value.get<std::string>()).name;
+            } catch (const Error& error) {
+                errors.add(std::string("metric: ") + error.what());
+            }
+        } else if ((key == "enable" || key == "disable") && value.is_array()) {
+            for (const ordered_json& id : value)
+                sweep.switches.emplace_back(text_of(id), key == "enable");
+        } else if (key == "base" && value.is_object()) {
             for (const auto& [parameter, v] : value.items())
                 sweep.base.emplace_back(parameter, text_of(v));
         } else if ((key == "lists" || key == "each") && value.is_object()) {

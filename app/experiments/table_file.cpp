@@ -1,7 +1,8 @@
 #include "app/experiments/table_file.h"
 
+#include "core/asset_files.h"
 #include "core/image.h"
-#include "core/paths.h"
+#include "core/metric_table.h"
 #include "core/text.h"
 
 #include <algorithm>
@@ -12,14 +13,7 @@ namespace bounce {
 using nlohmann::ordered_json;
 
 std::filesystem::path find_table(const std::string& name) {
-    std::filesystem::path path = name;
-    if (!std::filesystem::is_regular_file(path)) path = assets_folder() / "tables" / (name + ".json");
-    if (std::filesystem::is_regular_file(path)) return path;
-    std::vector<std::string> names;
-    std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator(assets_folder() / "tables", ignored))
-        names.push_back(entry.path().stem().string());
-    throw Error("there is no table '" + name + "'" + did_you_mean(name, names));
+    return find_asset("tables", "table", name);
 }
 
 ordered_json read_table(const std::filesystem::path& path) {
@@ -62,6 +56,19 @@ ParameterValues sets_at(const ordered_json& object, const std::string& where, Er
     for (const auto& [parameter, value] : object["set"].items())
         sets.emplace_back(parameter, set_text(value));
     return sets;
+}
+
+std::vector<std::string> metrics_at(const ordered_json& object, const std::string& where, ErrorList& errors) {
+    std::vector<std::string> names;
+    if (!object["metrics"].is_array()) errors.add(where + ": 'metrics' must be a list of names");
+    for (const ordered_json& name : object["metrics"]) {
+        try {
+            names.push_back(find_metric(set_text(name)).name);
+        } catch (const Error& error) {
+            errors.add(where + ", metrics: " + error.what());
+        }
+    }
+    return names;
 }
 
 } // namespace bounce

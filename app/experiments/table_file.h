@@ -31,4 +31,7 @@ ParameterValues sets_at(const nlohmann::ordered_json& object, const std::string&
 /// A value as --set takes it.
 std::string set_text(const nlohmann::ordered_json& value);
 
+/// The names of metrics in "metrics"; tells about those that there are not.
+std::vector<std::string> metrics_at(const nlohmann::ordered_json& object, const std::string& where, ErrorList& errors);
+
 } // namespace bounce

@@ -1,5 +1,6 @@
 // The Compare panel: the picture against the truth.
 #include "app/experiments/chart.h"
+#include "app/experiments/point_content.h"
 #include "app/panels/panel.h"
 #include "app/ui/live_comparison.h"
 #include "app/ui/widget_rects.h"
@@ -12,15 +13,19 @@
 
 namespace bounce {
 
-/// Error against time, both logarithmic: earlier points, and the present one in the accent colour.
+/// Error by the chosen metric against time, both logarithmic: earlier points, and the present one in the accent colour.
 static void draw_points(const LiveComparison& comparison, const ComparePoint& live) {
+    const bool occlusion = comparison.only_occlusion();
+    const Metric& metric = metric_for(find_metric(comparison.metric), occlusion);
+    auto error_of = [&](const ComparePoint& p) { return std::abs(p.figures[metric.name] - metric.ideal); };
+    auto drawable = [&](const ComparePoint& p) { return p.ms > 0 && error_of(p) > 0 && std::isfinite(error_of(p)); };
     std::vector<ComparePoint> all = comparison.points;
     all.push_back(live);
     double low_x = 1e30, high_x = 0, low_y = 1e30, high_y = 0;
     for (const ComparePoint& p : all) {
-        if (!(p.ms > 0) || !(p.relative_rmse > 0)) continue;
+        if (!drawable(p)) continue;
         low_x = std::min(low_x, p.ms), high_x = std::max(high_x, p.ms);
-        low_y = std::min(low_y, p.relative_rmse), high_y = std::max(high_y, p.relative_rmse);
+        low_y = std::min(low_y, error_of(p)), high_y = std::max(high_y, error_of(p));
     }
     ImVec2 at = ImGui::GetCursorScreenPos();
     ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 10);
@@ -32,37 +37,48 @@ static void draw_points(const LiveComparison& comparison, const ComparePoint& li
     low_x *= 0.7, high_x *= 1.4, low_y *= 0.7, high_y *= 1.4;
     auto place = [&](const ComparePoint& p) {
         float x = float(std::log(p.ms / low_x) / std::log(high_x / low_x)),
-              y = float(std::log(p.relative_rmse / low_y) / std::log(high_y / low_y));
+              y = float(std::log(error_of(p) / low_y) / std::log(high_y / low_y));
         return ImVec2(at.x + x * size.x, at.y + (1 - y) * size.y);
     };
     const ComparePoint* hovered = nullptr;
     for (size_t i = 0; i < all.size(); ++i) {
         const ComparePoint& p = all[i];
-        if (!(p.ms > 0) || !(p.relative_rmse > 0)) continue;
+        if (!drawable(p)) continue;
         bool is_live = i + 1 == all.size();
         ImVec2 centre = place(p), mouse = ImGui::GetIO().MousePos;
         list->AddCircleFilled(centre, is_live ? 5.0f : 3.5f,
                               is_live ? IM_COL32(255, 170, 60, 255) : IM_COL32(120, 170, 230, 200));
         if (std::hypot(mouse.x - centre.x, mouse.y - centre.y) < 6) hovered = &p;
     }
-    std::string corner =
-        fmt::format("{:.2g} … {:.2g} ms,  {:.2g} … {:.2g} %", low_x, high_x, 100 * low_y, 100 * high_y);
+    const double scale = metric.unit == MetricUnit::share ? 100 : 1;
+    std::string corner = fmt::format("{:.2g} … {:.2g} ms,  {} {:.2g} … {:.2g}", low_x, high_x, metric_heading(metric),
+                                     scale * low_y, scale * high_y);
     list->AddText({at.x + 6, at.y + 4}, IM_COL32(150, 150, 150, 255), corner.c_str());
     if (hovered)
-        ImGui::SetTooltip("%s\n%.3g ms, relative RMSE %.2f %%", hovered->label.c_str(), hovered->ms,
-                          100 * hovered->relative_rmse);
+        ImGui::SetTooltip("%s\n%.3g ms, %s %s", hovered->label.c_str(), hovered->ms, metric.title.c_str(),
+                          metric_text(metric, hovered->figures, occlusion).c_str());
 }
 
-static void draw_figures(LiveComparison& comparison, PanelContext& context) {
-    const ErrorFigures& f = comparison.figures();
-    ImGui::Text("bias           %+8.2f %%", 100 * f.bias);
-    ImGui::Text("relative RMSE   %7.2f %%", 100 * f.relative_rmse);
-    ImGui::Text("99th percentile %7.2f %%", 100 * f.relative_error_p99);
-    ImGui::Text("reference noise %7.2f %%  (%d samples a pixel)", 100 * comparison.reference_noise(),
-                comparison.samples());
-    ImGui::TextDisabled("off depth and normal edges: %.0f %% of the pixels",
-                        100.0 * double(f.pixels) / (double(context.session.size().x) * context.session.size().y));
-    if (ImGui::SmallButton("FLIP")) context.ui.say(fmt::format("FLIP {:.4f}", comparison.measure_flip()));
+/// A row for each metric of the table; a click chooses it for the points.
+static void draw_figures(LiveComparison& comparison) {
+    const bool occlusion = comparison.only_occlusion();
+    bool all = true;
+    for (const Metric* metric : brief_metrics()) {
+        const Metric& shown = metric_for(*metric, occlusion);
+        if (!comparison.figures().find(shown.name)) {
+            all = false;
+            continue;
+        }
+        const std::string row =
+            fmt::format("{:<15} {:>12}", shown.title, metric_text(shown, comparison.figures(), occlusion));
+        if (ImGui::Selectable((row + "##" + shown.name).c_str(), comparison.metric == metric->name))
+            comparison.metric = metric->name;
+        note_widget("compare.metric." + metric->name);
+    }
+    ImGui::TextDisabled("%d samples per pixel; off depth and normal edges: %.0f %% of the pixels", comparison.samples(),
+                        100 * comparison.kept_share());
+    if (!all && ImGui::SmallButton("as seen on a display")) comparison.measure_shown();
+    if (!all) note_widget("compare.shown");
 }
 
 void draw_compare_panel(PanelContext& context) {
@@ -115,7 +131,7 @@ void draw_compare_panel(PanelContext& context) {
     if (comparison.view == CompareView::error)
         ImGui::SliderFloat("brightest", &comparison.error_range, 0.01f, 4, "%.2f", ImGuiSliderFlags_Logarithmic);
     if (comparison.view == CompareView::flicker) context.ui.redraw_panels = true;
-    draw_figures(comparison, context);
+    draw_figures(comparison);
 
     ImGui::Separator();
     ComparePoint live = comparison.live(session);
@@ -131,12 +147,15 @@ void draw_compare_panel(PanelContext& context) {
     if (ImGui::SmallButton("load chart")) {
         try {
             size_t before = comparison.points.size();
-            for (const ChartPoint& point : load_points(folder)) {
-                if (point.task.shot != session.options().shot) continue;
-                const PointError& error = comparison.full_transport ? point.full : point.same_transport;
-                comparison.points.push_back({point.task.label(), point.total_ms, error.relative_rmse});
+            std::vector<std::string> left_out;
+            for (const ChartPoint& point : points_of_one_program(load_points(folder), left_out)) {
+                if (point.task.session.shot != session.options().shot) continue;
+                comparison.points.push_back({point.task.label(), point.total_ms,
+                                             comparison.full_transport ? point.full : point.same_transport});
             }
-            context.ui.say(fmt::format("{} points of this shot", comparison.points.size() - before));
+            std::string told = fmt::format("{} points of this shot", comparison.points.size() - before);
+            if (!left_out.empty()) told += fmt::format("; left out {} of other versions", left_out.size());
+            context.ui.say(told);
         } catch (const std::exception& error) {
             context.ui.say(error.what(), true);
         }

@@ -1,11 +1,10 @@
 #include "app/ui/live_comparison.h"
 
 #include "app/capture.h"
-#include "app/experiments/parts.h"
 #include "app/experiments/transport.h"
 #include "core/error.h"
-#include "core/flip.h"
 #include "core/heat_map.h"
+#include "core/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +41,7 @@ void LiveComparison::start(const Session& session) {
     ReferenceSettings settings = transport_settings(session.graph().model());
     settings.bounces = models_everything(*this, session) ? k_unlimited_bounces : transport.bounces;
     settings.diffuse_only = !full_transport && transport.diffuse_only;
-    parts_ = full_transport ? std::vector<std::string>{"out.radiance"} : transport.parts;
+    started_part_ = full_transport ? "out.radiance" : join(transport.parts, "+");
     started_key_ = key_of(session);
     int frame = session.frame();
     double target = noise;
@@ -103,7 +102,7 @@ bool LiveComparison::update(const Session& session) {
         if (has_fresh_) {
             reference_ = std::move(fresh_.image);
             samples_ = fresh_.samples;
-            reference_noise_ = noise_of_parts(reference_, parts_);
+            part_ = started_part_;
             reference_key_ = started_key_;
             has_fresh_ = false;
             changed = true;
@@ -112,33 +111,41 @@ bool LiveComparison::update(const Session& session) {
     if (!has_reference() || stale(session)) return changed;
     if (!changed && measured_frames_ == session.graph().frames()) return false;
     measured_frames_ = session.graph().frames();
-    truth_ = sum_of_parts(reference_, parts_);
-    own_ = sum_of_parts(read_parts(session), parts_);
+    truth_ = part_of(reference_, part_, "the reference");
+    parts_ = read_parts(session);
+    own_ = part_or_black(parts_, part_, truth_);
     if (const GpuTexture* display = session.graph().texture("out.display")) display_ = read_layer(*display);
     if (own_.pixels.size() != truth_.pixels.size()) return changed;
-    mask_ = edge_mask(reference_.layers.at("gbuffer.normal"), reference_.layers.at("gbuffer.position"),
-                      session.camera().position);
-    try {
-        figures_ = error_figures(own_, truth_, mask_);
-    } catch (const Error& error) { // a NaN in the picture, nothing but edges …
-        figures_ = {};
-        std::lock_guard lock(mutex_);
-        problem_ = error.what();
-    }
+    measure(false);
     return true;
 }
 
-double LiveComparison::measure_flip() {
-    if (own_.empty() || truth_.empty()) return 0;
-    float exposure = automatic_exposure(truth_, mask_);
-    return flip_mean(flip(display_values(own_, exposure), display_values(truth_, exposure)), mask_);
+void LiveComparison::measure(bool shown) {
+    ComparisonOptions options;
+    options.parts = {part_};
+    options.absent_is_black = true;
+    options.shown = shown;
+    try {
+        const LayerComparison comparison = compare_layers(parts_, reference_, options);
+        mask_ = comparison.mask;
+        figures_ = comparison.parts.front().figures;
+    } catch (const Error& error) { // a NaN in the picture …
+        figures_ = {};
+        if (mask_.width != truth_.width || mask_.height != truth_.height) mask_ = Mask(truth_.width, truth_.height);
+        std::lock_guard lock(mutex_);
+        problem_ = error.what();
+    }
+}
+
+void LiveComparison::measure_shown() {
+    if (!own_.empty() && !truth_.empty()) measure(true);
 }
 
 ComparePoint LiveComparison::live(const Session& session) const {
     std::string label = session.options().graph;
     for (const auto& [name, value] : session.changed_parameters(ParameterOrigin::command_line))
         label += " " + name + "=" + value;
-    return {label, session.graph().frame_ms(), figures_.relative_rmse};
+    return {label, session.graph().frame_ms(), figures_};
 }
 
 void LiveComparison::release_gpu() {

@@ -2,9 +2,8 @@
 // The picture beside the truth: a reference rendered in the background, what the viewport shows of the pair, and how
 // far apart they are.
 
-#include "app/session.h"
-#include "core/image.h"
-#include "core/metrics.h"
+#include "app/experiments/chart_point.h"
+#include "core/comparison.h"
 #include "reference/reference_image.h"
 
 #include <mutex>
@@ -20,7 +19,7 @@ enum class CompareView { off, split, flicker, error, reference };
 struct ComparePoint {
     std::string label;
     double ms = 0;
-    double relative_rmse = 0;
+    MetricValues figures;
 };
 
 class LiveComparison {
@@ -46,23 +45,27 @@ class LiveComparison {
     /// The session shows something else by now than the reference does.
     bool stale(const Session& session) const;
     int samples() const { return samples_; }
-    double reference_noise() const { return reference_noise_; }
 
     /// Takes over a finished reference and, after a new frame, measures. Returns true when the picture to show changed.
     bool update(const Session& session);
-    const ErrorFigures& figures() const { return figures_; }
+    const MetricValues& figures() const { return figures_; }
+    double kept_share() const { return mask_.share(); }
     bool measured() const { return measured_frames_ != ~0ull; }
-    /// FLIP of the present pair; takes its time, so it is only computed when asked for.
-    double measure_flip();
+    /// Adds the metrics of display values for the present pair; they take their time, so only when asked for.
+    void measure_shown();
 
     /// The rgba8 picture of the chosen view at the session's size; null when there is none to show.
     const GpuTexture* picture(const Session& session, double seconds);
     void release_gpu();
 
-    std::vector<ComparePoint> points; ///< kept by the person, or loaded from a chart
+    std::vector<ComparePoint> points;     ///< kept by the person, or loaded from a chart
+    std::string metric = k_default_error; ///< by which points are drawn
     ComparePoint live(const Session& session) const;
+    /// Occlusion alone is compared, in AO units.
+    bool only_occlusion() const { return !part_.empty() && !is_radiance(part_); }
 
   private:
+    void measure(bool shown);
     std::string key_of(const Session& session) const;
     void compose(const Session& session, bool second_half);
 
@@ -75,13 +78,12 @@ class LiveComparison {
     std::atomic<bool> running_{false};
 
     std::string started_key_, reference_key_;
-    std::vector<std::string> parts_;
-    LayeredImage reference_;
+    std::string started_part_, part_; ///< what is compared: "out.a+out.b"
+    LayeredImage reference_, parts_;
     Image truth_, own_, display_; ///< summed parts of both, and the graph's own out.display
     Mask mask_;
-    ErrorFigures figures_;
+    MetricValues figures_;
     int samples_ = 0;
-    double reference_noise_ = 0;
     uint64_t measured_frames_ = ~0ull;
     GpuTexture picture_;
     std::string composed_; ///< what picture_ was made from

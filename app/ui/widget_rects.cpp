@@ -65,7 +65,7 @@ void end_widget_frame(const PanelContext& context) {
                               {"split", comparison->split},
                               {"running", comparison->running()},
                               {"samples", comparison->samples()},
-                              {"relative_rmse", comparison->figures().relative_rmse},
+                              {"relative_rmse", comparison->figures()["relative_rmse"]},
                               {"points", comparison->points.size()}};
     }
     json["widgets"] = nlohmann::json::object();

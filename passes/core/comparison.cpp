@@ -2,15 +2,20 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "core/window_mean.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace bounce {
 
+static std::vector<std::string> summands(const std::string& part) {
+    return part.empty() ? std::vector<std::string>{""} : split(part, '+');
+}
+
 Image part_of(const LayeredImage& image, const std::string& part, const std::string& what) {
     Image sum;
-    for (const std::string& name : part.empty() ? std::vector<std::string>{""} : split(part, '+')) {
+    for (const std::string& name : summands(part)) {
         auto layer = image.layers.find(name);
         if (layer == image.layers.end()) continue;
         if (sum.empty()) {
@@ -28,6 +33,12 @@ Image part_of(const LayeredImage& image, const std::string& part, const std::str
         throw Error(what + " has no part '" + part + "'" + did_you_mean(part, names));
     }
     return sum;
+}
+
+Image part_or_black(const LayeredImage& image, const std::string& part, const Image& like) {
+    const std::vector<std::string> names = summands(part);
+    const bool there = std::any_of(names.begin(), names.end(), [&](auto& name) { return image.layers.contains(name); });
+    return there ? part_of(image, part, "the image") : Image(like.width, like.height, like.channels);
 }
 
 static std::vector<std::string> common_parts(const LayeredImage& test, const LayeredImage& reference) {
@@ -112,6 +123,46 @@ bool is_radiance(const std::string& part) {
     return part.find("ambient_occlusion") == std::string::npos && part.find("display") == std::string::npos;
 }
 
+/// The masked figures of two pictures of one part; with the metrics of display values where those are given.
+static MetricValues compare_pair(const Image& a, const Image& b, const Mask& mask, double test_noise,
+                                 double reference_noise, const Image* shown_a = nullptr, const Image* shown_b = nullptr,
+                                 float ppd = k_flip_pixels_per_degree) {
+    return compute_metrics(
+        {a, b, mask, test_noise, reference_noise, error_figures(a, b, mask, reference_noise), shown_a, shown_b, ppd});
+}
+
+static PartComparison compare_part(const std::string& part, const LayeredImage& test, const LayeredImage& reference,
+                                   const LayerComparison& of, const ComparisonOptions& options) {
+    const std::string shown = part.empty() ? "the image" : part;
+    Image b = part_of(reference, part, "the reference");
+    Image a = options.absent_is_black ? part_or_black(test, part, b) : part_of(test, part, "the image");
+    drop_lone_alpha(a, b);
+    check_same_size(a, shown + " of the image", b, shown + " of the reference");
+    check_finite(a, shown + " of the image");
+    check_finite(b, shown + " of the reference");
+    const double test_noise = told_noise(test, part, of.edges_masked);
+    const double reference_noise = told_noise(reference, part, of.edges_masked);
+    PartComparison result;
+    result.part = part;
+    if (options.shown) {
+        Image shown_a = three_channels(a), shown_b = three_channels(b);
+        if (!options.display_values && is_radiance(part)) {
+            result.exposure = options.exposure.value_or(automatic_exposure(shown_b, of.mask));
+            shown_a = display_values(shown_a, result.exposure);
+            shown_b = display_values(shown_b, result.exposure);
+        }
+        result.figures = compare_pair(a, b, of.mask, test_noise, reference_noise, &shown_a, &shown_b, options.ppd);
+    } else {
+        result.figures = compare_pair(a, b, of.mask, test_noise, reference_noise);
+    }
+    if (options.window != 1) {
+        const Image mean_a = window_mean(a, of.mask, options.window), mean_b = window_mean(b, of.mask, options.window);
+        const double less = window_noise_factor(of.mask, options.window);
+        result.windowed = compare_pair(mean_a, mean_b, of.mask, less * test_noise, less * reference_noise);
+    }
+    return result;
+}
+
 LayerComparison compare_layers(const LayeredImage& test, const LayeredImage& reference,
                                const ComparisonOptions& options) {
     const std::vector<std::string> parts = options.parts.empty() ? common_parts(test, reference) : options.parts;
@@ -129,31 +180,8 @@ LayerComparison compare_layers(const LayeredImage& test, const LayeredImage& ref
         comparison.edges_masked = comparison.mask.count() > 0;
         if (!comparison.edges_masked) comparison.mask = Mask(normal->width, normal->height);
     }
-    for (const std::string& part : parts) {
-        const std::string shown = part.empty() ? "the image" : part;
-        Image a = part_of(test, part, "the image"), b = part_of(reference, part, "the reference");
-        drop_lone_alpha(a, b);
-        check_same_size(a, shown + " of the image", b, shown + " of the reference");
-        check_finite(a, shown + " of the image");
-        check_finite(b, shown + " of the reference");
-        PartComparison result;
-        result.part = part;
-        result.figures = error_figures(a, b, comparison.mask, told_noise(reference, part, comparison.edges_masked));
-        if (result.figures.reference_mean > 0) {
-            result.own_noise = told_noise(test, part, comparison.edges_masked) / result.figures.reference_mean;
-        }
-        if (options.visual) {
-            Image shown_a = three_channels(a), shown_b = three_channels(b);
-            if (!options.display_values && is_radiance(part)) {
-                result.exposure = options.exposure.value_or(automatic_exposure(shown_b, comparison.mask));
-                shown_a = display_values(shown_a, result.exposure);
-                shown_b = display_values(shown_b, result.exposure);
-            }
-            result.ssim = ssim(shown_a, shown_b, comparison.mask);
-            result.flip = flip_mean(flip(shown_a, shown_b, options.ppd), comparison.mask);
-        }
-        comparison.parts.push_back(std::move(result));
-    }
+    for (const std::string& part : parts)
+        comparison.parts.push_back(compare_part(part, test, reference, comparison, options));
     return comparison;
 }
 
@@ -170,10 +198,10 @@ std::vector<SurfaceComparison> compare_surfaces(const LayeredImage& test, const 
     for (const auto& [id, count] : component_counts(ids)) {
         const Mask own = mask & component_mask(ids, id);
         if (double(own.count()) < 0.005 * double(mask.count()) || own.count() == 0) continue;
-        surfaces.push_back({id / 6, k_axes[id % 6], part, error_figures(a, b, own)});
+        surfaces.push_back({id / 6, k_axes[id % 6], part, compare_pair(a, b, own, 0, 0)});
     }
     std::stable_sort(surfaces.begin(), surfaces.end(),
-                     [](const auto& x, const auto& y) { return x.figures.pixels > y.figures.pixels; });
+                     [](const auto& x, const auto& y) { return x.figures["pixels"] > y.figures["pixels"]; });
     return surfaces;
 }
 

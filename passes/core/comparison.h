@@ -1,8 +1,8 @@
 #pragma once
-// Two files of named parts, compared part by part: what `bounce compare`, charts and the Compare panel show.
+// Two files of named parts, compared part by part by every metric of the table: the one comparison that `bounce
+// compare`, charts, cost tables and the Compare panel show.
 
-#include "core/flip.h"
-#include "core/metrics.h"
+#include "core/metric_table.h"
 
 #include <optional>
 #include <string>
@@ -18,24 +18,25 @@ struct ComparisonOptions {
         true; ///< by gbuffer.normal and gbuffer.position of the reference, or else of the image, where one has them
     std::optional<float> exposure; ///< stops, for SSIM and FLIP of radiance; else automatic from the reference
     float ppd = k_flip_pixels_per_degree;
-    bool display_values = false; ///< the pictures are linear display values already (8-bit files): no tone curve
-    bool visual = true;          ///< compute SSIM and FLIP, the slow ones
+    bool display_values = false;  ///< the pictures are linear display values already (8-bit files): no tone curve
+    bool shown = true;            ///< compute what needs display values too (SSIM, FLIP), the slow ones
+    bool absent_is_black = false; ///< a part that the test lacks is black: its graph had nothing to make it from
+    int window = 1; ///< above 1: also after means over windows of so many pixels a side (odd), see window_mean
 };
 
 struct PartComparison {
     std::string part;
-    ErrorFigures figures;
-    double ssim = 0, flip = 0;
+    MetricValues figures;
+    MetricValues
+        windowed; ///< after the means over windows; without the metrics of display values. Empty: not asked for
     float exposure = 0;
-    /// As figures.reference_noise, but of the compared image, when it says so of itself.
-    double own_noise = 0;
 };
 
 struct SurfaceComparison {
     int material = -1;
     std::string axis; ///< "+x" … "-z", the dominant axis of the normal
     std::string part;
-    ErrorFigures figures;
+    MetricValues figures; ///< without those of display values
 };
 
 struct LayerComparison {
@@ -44,7 +45,8 @@ struct LayerComparison {
     std::vector<PartComparison> parts;
 };
 
-/// `test` against `reference`. Throws Error when nothing can be paired, sizes differ or a value is not finite.
+/// `test` against `reference`. Throws Error when nothing can be paired, sizes differ, a value is not finite or the
+/// window is even.
 LayerComparison compare_layers(const LayeredImage& test, const LayeredImage& reference,
                                const ComparisonOptions& options);
 
@@ -55,6 +57,8 @@ std::vector<SurfaceComparison> compare_surfaces(const LayeredImage& test, const 
 
 /// The layer, or sum of layers, that `part` names. Throws Error naming `what` when there is none.
 Image part_of(const LayeredImage& image, const std::string& part, const std::string& what);
+/// The same; where there is none, black, as large as `like`: the graph had nothing to make it from.
+Image part_or_black(const LayeredImage& image, const std::string& part, const Image& like);
 
 /// Whether a part is light, to be tone-mapped before it is looked at; occlusion and display values are not.
 bool is_radiance(const std::string& part);

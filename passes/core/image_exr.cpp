@@ -1,6 +1,7 @@
 // OpenEXR files of named layers. Encoded and decoded in memory, so that a file is written whole or not at all.
 
 #include "core/error.h"
+#include "core/exr_file.h"
 #include "core/image.h"
 
 #include <ImfChannelList.h>
@@ -15,6 +16,7 @@
 #include <cstring>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 namespace bounce {
 
@@ -60,6 +62,8 @@ class MemoryInput : public Imf::IStream {
 constexpr size_t k_most_floats = size_t(1) << 29;
 constexpr size_t k_most_floats_a_byte = 10000;
 
+constexpr const char* k_default_layer = "bounceDefaultLayer"; ///< the attribute that names it
+
 } // namespace
 
 static void use_all_threads() {
@@ -69,8 +73,8 @@ static void use_all_threads() {
 
 static std::string channel_name(const std::string& layer, int channels, int channel) {
     static const char* const k_suffixes[4][4] = {{"Y"}, {"X", "Y"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
-    std::string suffix = k_suffixes[channels - 1][channel];
-    return layer.empty() ? suffix : layer + "." + suffix;
+    if (layer.empty()) return channels == 2 ? k_suffixes[2][channel] : k_suffixes[channels - 1][channel];
+    return layer + "." + k_suffixes[channels - 1][channel];
 }
 
 static int suffix_order(const std::string& suffix) {
@@ -78,9 +82,34 @@ static int suffix_order(const std::string& suffix) {
     return suffix.size() == 1 && found != std::string::npos ? int(found) : 100;
 }
 
+/// The layers as they are stored: the default one under plain names, beside others under its own too.
+static std::vector<std::pair<std::string, const Image*>> stored_layers(const LayeredImage& image,
+                                                                       const std::string& default_layer) {
+    std::vector<std::pair<std::string, const Image*>> stored;
+    for (const auto& [name, layer] : image.layers) {
+        if (image.layers.size() > 1 || name != default_layer) stored.emplace_back(name, &layer);
+        if (!name.empty() && name == default_layer) stored.emplace_back("", &layer);
+    }
+    return stored;
+}
+
+/// What stored_layers made of the default layer, undone.
+static void name_default_layer(LayeredImage& image, const std::string& default_layer) {
+    auto plain = image.layers.find("");
+    if (default_layer.empty() || plain == image.layers.end()) return;
+    image.layers.emplace(default_layer, std::move(plain->second)); // unless it is there under its own name too
+    image.layers.erase("");
+}
+
 void write_exr(const std::filesystem::path& path, const LayeredImage& image) {
+    write_exr(path, image, "");
+}
+
+void write_exr(const std::filesystem::path& path, const LayeredImage& image, const std::string& default_layer) {
     std::string where = "cannot write '" + path.string() + "': ";
     if (image.layers.empty()) throw Error(where + "the image has no layers");
+    if (!default_layer.empty() && !image.layers.contains(default_layer))
+        throw Error(where + "there is no layer '" + default_layer + "'");
     const Image& first = image.layers.begin()->second;
     for (const auto& [name, layer] : image.layers) {
         if (layer.empty() || layer.pixels.size() != size_t(layer.width) * layer.height * layer.channels) {
@@ -99,8 +128,10 @@ void write_exr(const std::filesystem::path& path, const LayeredImage& image) {
         Imf::Header header(first.width, first.height);
         header.compression() = Imf::ZIP_COMPRESSION;
         if (!image.metadata.empty()) header.insert("bounce", Imf::StringAttribute(image.metadata));
+        if (!default_layer.empty()) header.insert(k_default_layer, Imf::StringAttribute(default_layer));
         Imf::FrameBuffer frame;
-        for (const auto& [name, layer] : image.layers) {
+        for (const auto& [name, stored] : stored_layers(image, default_layer)) {
+            const Image& layer = *stored;
             for (int c = 0; c < layer.channels; ++c) {
                 std::string channel = channel_name(name, layer.channels, c);
                 if (header.channels().findChannel(channel)) {
@@ -125,6 +156,7 @@ void write_exr(const std::filesystem::path& path, const LayeredImage& image) {
 LayeredImage read_exr(const std::filesystem::path& path) {
     std::string bytes = read_file(path);
     LayeredImage image;
+    std::string default_layer;
     try {
         use_all_threads();
         MemoryInput stream(bytes);
@@ -135,6 +167,8 @@ LayeredImage read_exr(const std::filesystem::path& path) {
         int64_t height = int64_t(window.max.y) - window.min.y + 1;
         if (const auto* text = header.findTypedAttribute<Imf::StringAttribute>("bounce"))
             image.metadata = text->value();
+        if (const auto* text = header.findTypedAttribute<Imf::StringAttribute>(k_default_layer))
+            default_layer = text->value();
 
         std::map<std::string, std::vector<std::string>> layers; // the channel suffixes of each
         for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
@@ -173,6 +207,7 @@ LayeredImage read_exr(const std::filesystem::path& path) {
         }
         file.setFrameBuffer(frame);
         file.readPixels(window.min.y, window.max.y);
+        name_default_layer(image, default_layer);
     } catch (const std::exception& error) {
         throw Error("cannot read '" + path.string() + "' as an OpenEXR image: " + error.what());
     }

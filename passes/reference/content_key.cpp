@@ -70,6 +70,60 @@ static void add_light(ContentHash& hash, const Light& light) {
     hash.add_value(int(light.enabled));
 }
 
+static void add_camera(ContentHash& hash, const Camera& camera) {
+    hash.add_value(camera.position);
+    hash.add_value(camera.target);
+    hash.add_value(camera.up);
+    hash.add_value(camera.vfov);
+}
+
+static void add_scene(ContentHash& hash, const Scene& scene) {
+    hash.add(scene.vertices.data(), scene.vertices.size() * sizeof(Vertex));
+    hash.add(scene.indices.data(), scene.indices.size() * sizeof(uint32_t));
+    for (const Material& material : scene.materials)
+        add_material(hash, material);
+    for (const Texture& texture : scene.textures) {
+        hash.add_value(texture.image.width);
+        hash.add_value(texture.image.height);
+        hash.add_value(int(texture.wrap_u) | int(texture.wrap_v) << 4 | int(texture.nearest) << 8 |
+                       int(texture.srgb) << 9);
+        hash.add(texture.image.rgba.data(), texture.image.rgba.size());
+    }
+}
+
+static void add_state(ContentHash& hash, const SceneState& state) {
+    for (const Instance& instance : state.instances) {
+        hash.add_value(instance.world);
+        hash.add_value(instance.primitive.first_index);
+        hash.add_value(instance.primitive.index_count);
+        hash.add_value(instance.primitive.material);
+    }
+    for (const Light& light : state.lights)
+        add_light(hash, light);
+}
+
+static void add_environment(ContentHash& hash, const Environment& environment) {
+    hash.add_value(environment.radiance);
+    hash.add_value(environment.map.width);
+    hash.add(environment.map.pixels.data(), environment.map.pixels.size() * sizeof(float));
+}
+
+std::string shot_digest(const Shot& shot, int frames) {
+    ContentHash hash;
+    hash.add_value(int(shot.diffuse_only));
+    hash.add_value(int(shot.normal_maps));
+    hash.add_value(shot.fps);
+    add_scene(hash, shot.scene);
+    add_environment(hash, shot.environment);
+    for (int frame = 0; frame < frames; ++frame) {
+        const ShotState state = evaluate_shot(shot, frame);
+        hash.add_value(state.time);
+        add_camera(hash, state.camera);
+        add_state(hash, state.scene);
+    }
+    return hash.text();
+}
+
 std::string content_key(const Shot& shot, const ShotState& state, const ReferenceSettings& settings) {
     ContentHash hash;
     hash.add(std::string(k_tracer_version));
@@ -83,34 +137,10 @@ std::string content_key(const Shot& shot, const ShotState& state, const Referenc
     hash.add_value(int(shot.normal_maps));
     hash.add_value(shot.width);
     hash.add_value(shot.height);
-    hash.add_value(state.camera.position);
-    hash.add_value(state.camera.target);
-    hash.add_value(state.camera.up);
-    hash.add_value(state.camera.vfov);
-
-    const Scene& scene = shot.scene;
-    hash.add(scene.vertices.data(), scene.vertices.size() * sizeof(Vertex));
-    hash.add(scene.indices.data(), scene.indices.size() * sizeof(uint32_t));
-    for (const Material& material : scene.materials)
-        add_material(hash, material);
-    for (const Texture& texture : scene.textures) {
-        hash.add_value(texture.image.width);
-        hash.add_value(texture.image.height);
-        hash.add_value(int(texture.wrap_u) | int(texture.wrap_v) << 4 | int(texture.nearest) << 8 |
-                       int(texture.srgb) << 9);
-        hash.add(texture.image.rgba.data(), texture.image.rgba.size());
-    }
-    for (const Instance& instance : state.scene.instances) {
-        hash.add_value(instance.world);
-        hash.add_value(instance.primitive.first_index);
-        hash.add_value(instance.primitive.index_count);
-        hash.add_value(instance.primitive.material);
-    }
-    for (const Light& light : state.scene.lights)
-        add_light(hash, light);
-    hash.add_value(shot.environment.radiance);
-    hash.add_value(shot.environment.map.width);
-    hash.add(shot.environment.map.pixels.data(), shot.environment.map.pixels.size() * sizeof(float));
+    add_camera(hash, state.camera);
+    add_scene(hash, shot.scene);
+    add_state(hash, state.scene);
+    add_environment(hash, shot.environment);
     return hash.text();
 }
 

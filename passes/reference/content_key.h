@@ -31,4 +31,8 @@ class ContentHash {
 /// Where files are and what things are called does not matter; what the camera sees does.
 std::string content_key(const Shot& shot, const ShotState& state, const ReferenceSettings& settings);
 
+/// The shot alone, at its first `frames` frames: scene, lights, environment and cameras, whatever looks at it. Its size
+/// does not count.
+std::string shot_digest(const Shot& shot, int frames);
+
 } // namespace bounce

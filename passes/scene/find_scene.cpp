@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <set>
 
 namespace bounce {
 
@@ -88,12 +89,23 @@ std::vector<fs::path> scene_search_path() {
     return folders;
 }
 
+std::vector<std::string> scene_names() {
+    std::set<std::string> names;
+    for (const fs::path& folder : scene_search_path())
+        for (const fs::path& entry : entries(folder)) {
+            if (is_gltf(entry)) names.insert(entry.stem().string());
+            std::error_code ignored;
+            if (fs::is_directory(entry, ignored) && !scene_in(entry).empty()) names.insert(entry.filename().string());
+        }
+    return {names.begin(), names.end()};
+}
+
 fs::path find_scene(const std::string& name, const fs::path& base) {
     if (trim(name).empty()) throw Error("a scene is a path or a name, but this one is empty");
     std::vector<fs::path> folders{base.empty() ? fs::path(".") : base};
     for (const fs::path& folder : scene_search_path())
         folders.push_back(folder);
-    std::vector<std::string> tried, known;
+    std::vector<std::string> tried;
     if (fs::path(name).is_absolute()) {
         if (fs::path found = resolve(fs::path(name).root_path(), fs::path(name).relative_path().string());
             !found.empty())
@@ -105,14 +117,7 @@ fs::path find_scene(const std::string& name, const fs::path& base) {
         std::error_code ignored;
         tried.push_back(fs::weakly_canonical(folder, ignored).string());
     }
-    for (const fs::path& folder : scene_search_path())
-        for (const fs::path& entry : entries(folder)) {
-            if (is_gltf(entry)) known.push_back(entry.stem().string());
-            std::error_code ignored;
-            if (fs::is_directory(entry, ignored) && !scene_in(entry).empty())
-                known.push_back(entry.filename().string());
-        }
-    throw Error("no scene '" + name + "'" + did_you_mean(name, known) + "; looked in " + join(tried, ", "));
+    throw Error("no scene '" + name + "'" + did_you_mean(name, scene_names()) + "; looked in " + join(tried, ", "));
 }
 
 fs::path find_scene_file(const std::string& name, const fs::path& base) {

@@ -1,5 +1,6 @@
 #include "scene/shot.h"
 
+#include "core/asset_files.h"
 #include "core/error.h"
 #include "core/image.h"
 #include "core/paths.h"
@@ -131,15 +132,6 @@ bool is_gltf(const fs::path& path) {
            path.extension() == ".GLB";
 }
 
-std::vector<std::string> shot_names() {
-    std::vector<std::string> names;
-    std::error_code error;
-    for (fs::directory_iterator it(assets_folder() / "shots", error), end; !error && it != end; it.increment(error))
-        if (it->path().extension() == ".json") names.push_back(it->path().stem().string());
-    std::sort(names.begin(), names.end());
-    return names;
-}
-
 /// A file as given, a shot by name, or a scene by name.
 fs::path find_shot(const std::string& name) {
     std::error_code ignored;
@@ -147,12 +139,12 @@ fs::path find_shot(const std::string& name) {
     for (const fs::path& candidate : {assets_folder() / "shots" / (name + ".json"), assets_folder() / "shots" / name})
         if (!name.empty() && fs::is_regular_file(candidate, ignored)) return candidate;
     if (fs::path(name).extension() == ".json")
-        throw Error("no shot '" + name + "'" + did_you_mean(fs::path(name).stem().string(), shot_names()));
+        throw Error("no shot '" + name + "'" + did_you_mean(fs::path(name).stem().string(), asset_names("shots")));
     try {
         return find_scene(name, ".");
     } catch (const Error& error) {
         throw Error("no shot '" + name + "' in " + (assets_folder() / "shots").string() +
-                    did_you_mean(name, shot_names()) + ", and " + error.what());
+                    did_you_mean(name, asset_names("shots")) + ", and " + error.what());
     }
 }
 

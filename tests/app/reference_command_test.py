@@ -40,7 +40,7 @@ class Files(ReferenceTest):
 
     def test_one_part_alone(self):
         self.assert_good(self.reference("x.exr", "--spp", "2", "--resource", "out.indirect_diffuse"))
-        self.assertEqual({c.rpartition(".")[0] for c in exr_header(self.out / "x.exr")[0]}, {"out.indirect_diffuse"})
+        self.assertEqual(sorted(exr_header(self.out / "x.exr")[0]), ["B", "G", "R"])
 
     def test_a_png_looks_as_the_graphs_pictures_do(self):
         self.assert_good(self.reference("truth.png", "--spp", "32", "--bounces", "0"))

@@ -1,8 +1,13 @@
 // Images survive a round trip through their files, and a write that fails leaves nothing behind.
 
 #include "core/error.h"
+#include "core/exr_file.h"
 #include "core/image.h"
 
+#include <ImfChannelList.h>
+#include <ImfInputFile.h>
+#include <ImfRgbaFile.h>
+#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -72,6 +77,61 @@ TEST_F(ImageFiles, ExrKeepsLayersChannelsAndMetadata) {
     }
 }
 
+/// As other programs read it: OpenEXR's own interface for plain pictures, which knows no layers.
+static std::vector<float> plain_pixels(const fs::path& path, int channels) {
+    Imf::RgbaInputFile file(path.c_str());
+    const Imath::Box2i window = file.dataWindow();
+    const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
+    std::vector<Imf::Rgba> pixels(size_t(width) * size_t(height));
+    file.setFrameBuffer(pixels.data() - window.min.x - window.min.y * width, 1, size_t(width));
+    file.readPixels(window.min.y, window.max.y);
+    std::vector<float> values;
+    for (const Imf::Rgba& p : pixels) {
+        const float all[4] = {p.r, p.g, p.b, p.a};
+        values.insert(values.end(), all, all + channels);
+    }
+    return values;
+}
+
+static Image halves(int channels) { // exact in 16 bits, as that interface reads them
+    Image image(6, 4, channels);
+    for (size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] = 0.25f * float(i) - 3.0f;
+    return image;
+}
+
+TEST_F(ImageFiles, OtherProgramsSeeTheDefaultLayer) {
+    LayeredImage image;
+    image.layers["out.radiance"] = halves(3);
+    image.layers["out.direct"] = gradient(6, 4, 3);
+    write_exr(folder / "a.exr", image, "out.radiance");
+    EXPECT_EQ(plain_pixels(folder / "a.exr", 3), image.layers["out.radiance"].pixels);
+    // We read back what was written, each layer once and under its name.
+    const LayeredImage read = read_exr(folder / "a.exr");
+    ASSERT_EQ(read.layers.size(), 2u);
+    for (const auto& [name, layer] : image.layers)
+        EXPECT_EQ(read.layers.at(name).pixels, layer.pixels) << name;
+}
+
+TEST_F(ImageFiles, AFileOfOneResourceIsAPlainPicture) {
+    for (int channels = 1; channels <= 4; ++channels) {
+        LayeredImage image;
+        image.layers["a.b"] = halves(channels);
+        write_exr(folder / "a.exr", image, "a.b");
+        Imf::InputFile file((folder / "a.exr").c_str());
+        std::string names;
+        for (auto it = file.header().channels().begin(); it != file.header().channels().end(); ++it)
+            names += it.name();
+        EXPECT_EQ(names, (std::array{"Y", "GR", "BGR", "ABGR"})[size_t(channels - 1)]); // in the alphabet's order
+        if (channels >= 3) {
+            EXPECT_EQ(plain_pixels(folder / "a.exr", channels), image.layers["a.b"].pixels);
+        }
+        const LayeredImage read = read_exr(folder / "a.exr");
+        ASSERT_EQ(read.layers.size(), 1u);
+        EXPECT_EQ(read.layers.at("a.b").pixels, image.layers["a.b"].pixels);
+    }
+}
+
 TEST_F(ImageFiles, TheSameExrIsTheSameBytes) {
     LayeredImage image;
     image.layers["out.radiance"] = gradient(64, 48, 3);
@@ -88,6 +148,8 @@ TEST_F(ImageFiles, ExrErrorsNameTheFileAndTheProblem) {
     EXPECT_THAT(error_of([&] { write_exr(folder / "x.exr", image); }), testing::HasSubstr("'b' differs in size"));
     image.layers["b"] = Image(4, 4, 5);
     EXPECT_THAT(error_of([&] { write_exr(folder / "x.exr", image); }), testing::HasSubstr("1 to 4 channels"));
+    image.layers.erase("b");
+    EXPECT_THAT(error_of([&] { write_exr(folder / "x.exr", image, "c"); }), testing::HasSubstr("no layer 'c'"));
     EXPECT_EQ(count_files(), 0u);
     EXPECT_THAT(error_of([&] { read_exr(folder / "none.exr"); }),
                 testing::AllOf(testing::HasSubstr("none.exr"), testing::HasSubstr("No such file")));

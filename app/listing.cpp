@@ -1,0 +1,53 @@
+#include "app/listing.h"
+
+#include "core/asset_files.h"
+#include "core/error.h"
+#include "core/image.h"
+#include "core/metric_table.h"
+#include "core/paths.h"
+#include "core/text.h"
+#include "scene/find_scene.h"
+
+#include <nlohmann/json.hpp>
+
+namespace bounce {
+
+/// Graphs that are lists of departures from another.
+static std::vector<std::string> preset_names() {
+    std::vector<std::string> names;
+    for (const std::string& name : asset_names("graphs")) {
+        const std::string text = read_file(assets_folder() / "graphs" / (name + ".json"));
+        const auto json = nlohmann::json::parse(text, nullptr, false, true);
+        if (json.is_object() && json.contains("extends")) names.push_back(name);
+    }
+    return names;
+}
+
+static std::vector<std::string> metric_names() {
+    std::vector<std::string> names;
+    for (const Metric& metric : metrics())
+        names.push_back(metric.name);
+    return names;
+}
+
+const std::vector<NameKind>& name_kinds() {
+    static const std::vector<NameKind> kinds = {{"shots", [] { return asset_names("shots"); }},
+                                                {"scenes", scene_names},
+                                                {"graphs", [] { return asset_names("graphs"); }},
+                                                {"presets", preset_names},
+                                                {"sweeps", [] { return asset_names("sweeps"); }},
+                                                {"tables", [] { return asset_names("tables"); }},
+                                                {"metrics", metric_names}};
+    return kinds;
+}
+
+std::vector<std::string> names_of(const std::string& kind) {
+    std::vector<std::string> known;
+    for (const NameKind& entry : name_kinds()) {
+        if (entry.name == kind) return entry.names();
+        known.push_back(entry.name);
+    }
+    throw Error("there is no kind '" + kind + "'" + did_you_mean(kind, known));
+}
+
+} // namespace bounce
