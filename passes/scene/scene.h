@@ -18,9 +18,9 @@ struct Vertex {
     glm::vec3 position{0};
     float u0 = 0; ///< TEXCOORD_0.x
     glm::vec3 normal{0, 1, 0};
-    float v0 = 0;                     ///< TEXCOORD_0.y
-    glm::vec4 tangent{1, 0, 0, 1};    ///< w = handedness of the bitangent
-    float u1 = 0, v1 = 0;             ///< TEXCOORD_1
+    float v0 = 0;                  ///< TEXCOORD_0.y
+    glm::vec4 tangent{1, 0, 0, 1}; ///< bitangent = cross(normal, tangent)·w, where a mapped green points: along −v
+    float u1 = 0, v1 = 0;          ///< TEXCOORD_1
     uint32_t colour_rg = 0xffffffffu; ///< COLOR_0 as unorm16 pairs (packUnorm2x16), linear; white where absent
     uint32_t colour_ba = 0xffffffffu;
 };
