@@ -65,7 +65,7 @@ TraceScene::TraceScene(const Shot& shot, const ShotState& state, const Reference
       camera_basis(bounce::camera_basis(camera.position, camera.target, camera.up)),
       tan_half_vfov(std::tan(0.5f * camera.vfov)), size(float(shot.width), float(shot.height)), settings(s),
       diffuse_only(s.diffuse_only || shot.diffuse_only),
-      occlusion_distance(s.occlusion_distance * geometry.bounds().diagonal()) {}
+      occlusion_distance(s.occlusion_distance * shot_facts(shot).bounds_over_animation.diagonal()) {}
 
 float TraceScene::near_visibility(float distance) const {
     const float share = distance / occlusion_distance;

@@ -206,7 +206,7 @@ struct SceneState {
 std::vector<glm::mat4> world_matrices(const Scene& scene, float time);
 SceneState evaluate_scene(const Scene& scene, float time, float previous_time);
 
-/// World bounds of all geometry at `time`.
+/// World bounds of all geometry at `time`, whatever strays in it. For lengths and grids see scene/extent.h.
 Bounds scene_bounds(const Scene& scene, float time);
 /// World bounds over the whole animation (all keys and points between them), as voxel grids need.
 Bounds scene_bounds_over_animation(const Scene& scene);
@@ -228,8 +228,10 @@ struct SceneFacts {
     bool animated_lights = false;
     bool environment = false; ///< radiance above zero
     float animation_duration = 0;
-    Bounds bounds; ///< at time 0
-    Bounds bounds_over_animation;
+    Bounds bounds;                ///< at time 0, without strays (scene/extent.h)
+    Bounds bounds_over_animation; ///< without strays: voxel grids, fitted views and lengths in diagonals go by it
+    Bounds whole_bounds;          ///< over the animation, strays included
+    size_t stray_triangles = 0;   ///< that bounds leave out
 };
 
 } // namespace bounce

@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "scene/default_view.h"
+#include "scene/extent.h"
 #include "scene/keyframes.h"
 #include "scene/shot_parts.h"
 
@@ -78,7 +79,7 @@ static bool any_emission(const Scene& scene) {
 }
 
 static void add_default_light(Shot& shot, const DefaultView& view) {
-    Bounds bounds = scene_bounds(shot.scene, shot.time);
+    Bounds bounds = scene_extent(shot.scene, shot.time).bounds;
     bool dark_inside = view.kind != ViewKind::outside && view.sky_share < 0.05f && !bounds.empty();
     Light light;
     light.name = "default light";
@@ -112,7 +113,7 @@ void complete_shot(Shot& shot, bool has_camera, bool add_light) {
     if (!has_camera && !state.cameras.empty()) {
         shot.camera = state.cameras.front();
         // A glTF camera has no target; orbiting wants one about where the scene is.
-        Bounds bounds = scene_bounds(shot.scene, shot.time);
+        Bounds bounds = scene_extent(shot.scene, shot.time, {&shot.camera, 1}).bounds;
         glm::vec3 forward = shot.camera.target - shot.camera.position;
         float ahead = bounds.empty() ? 1 : glm::dot(bounds.centre() - shot.camera.position, forward);
         shot.camera.target = shot.camera.position + forward * std::max(ahead, 0.1f * bounds.diagonal());
