@@ -87,6 +87,7 @@ std::string content_key(const Shot& shot, const ShotState& state, const Referenc
     hash.add_value(state.camera.target);
     hash.add_value(state.camera.up);
     hash.add_value(state.camera.vfov);
+    hash.add_value(state.camera.near_plane);
 
     const Scene& scene = shot.scene;
     hash.add(scene.vertices.data(), scene.vertices.size() * sizeof(Vertex));

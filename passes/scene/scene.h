@@ -100,7 +100,8 @@ struct Camera {
     glm::vec3 position{0, 0, 5};
     glm::vec3 target{0, 0, 0};
     glm::vec3 up{0, 1, 0};
-    float vfov = 0.8f; ///< vertical field of view, radians
+    float vfov = 0.8f;    ///< vertical field of view, radians
+    float near_plane = 0; ///< metres along the view: what lies nearer is not seen; 0: everything ahead is
 };
 
 /// A piecewise linear path through keys (position and, where given, a target to look at); frames before the first and
@@ -208,7 +209,7 @@ SceneState evaluate_scene(const Scene& scene, float time, float previous_time);
 
 /// World bounds of all geometry at `time`, whatever strays in it. For lengths and grids see scene/extent.h.
 Bounds scene_bounds(const Scene& scene, float time);
-/// World bounds over the whole animation (all keys and points between them), as voxel grids need.
+/// World bounds over the whole animation (all keys and points between them).
 Bounds scene_bounds_over_animation(const Scene& scene);
 
 /// What a scene holds, and so what it needs. Passes decline by these (“no emissive material”).

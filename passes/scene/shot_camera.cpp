@@ -51,6 +51,7 @@ Camera read_camera(const json& value, ErrorList& errors) {
     camera.target = object.vector("target").value_or(camera.target);
     camera.up = object.vector("up").value_or(camera.up);
     if (auto degrees = object.number("vfov_deg", 0.1, 170)) camera.vfov = glm::radians(*degrees);
+    camera.near_plane = object.number("near", 0, 1e9).value_or(0);
     bool both = object.has("position") && object.has("target");
     if (both && glm::distance(camera.position, camera.target) == 0)
         errors.add("camera.target is the camera's position: it must lie in front of it");
@@ -67,6 +68,7 @@ std::string camera_json(const Camera& camera) {
     out["target"] = vector(camera.target);
     out["up"] = vector(camera.up);
     out["vfov_deg"] = number(glm::degrees(camera.vfov));
+    if (camera.near_plane > 0) out["near"] = number(camera.near_plane);
     return out.dump();
 }
 
