@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/log.h"
+#include "scene/describe.h"
 
 #include <fmt/format.h>
 
@@ -37,6 +38,7 @@ Session::~Session() = default;
 
 void Session::load_scene_to_gpu() {
     facts_ = shot_facts(*shot_);
+    if (std::string strays = describe_strays(facts_); !strays.empty()) spdlog::warn("{}: {}", shot_->name, strays);
     gpu_scene_ = std::make_unique<GpuScene>(shot_->scene, shot_->environment);
     scene_edited();
     has_last_view_ = false;

@@ -7,6 +7,7 @@
 #include "app/ui/open.h"
 #include "app/ui/widget_rects.h"
 #include "core/text.h"
+#include "scene/describe.h"
 
 #include <fmt/format.h>
 #include <imgui_stdlib.h>
@@ -69,6 +70,7 @@ void draw_facts(const Session& session) {
     }
     glm::vec3 size = facts.bounds.size();
     fact("size", "%.3g × %.3g × %.3g m", double(size.x), double(size.y), double(size.z));
+    if (std::string strays = describe_strays(facts); !strays.empty()) show_wrapped(strays, k_warning_colour);
 }
 
 void draw_notes(const Session& session) {

@@ -41,7 +41,7 @@ void main() {
                 for (bool near = box_meets(i, voxel); near; near = false) {
                     VisitedTriangle t = load_triangle(uint(i), draw_count);
                     vec3 across = cross(t.positions[1] - t.positions[0], t.positions[2] - t.positions[0]);
-                    if (!(dot(across, across) > 0.0) || !triangle_fills(t, voxel)) continue;
+                    if (!(dot(across, across) > 0.0) || !is_within_floats(across) || !triangle_fills(t, voxel)) continue;
                     VoxelFragment f = fragment_of(t, voxel);
                     ++fragments;
                     albedo += fixed_share(f.albedo);

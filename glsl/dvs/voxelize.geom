@@ -37,6 +37,7 @@ vec2 project(vec3 p, int axis) {
 void main() {
     vec3 a = corner[0].position, b = corner[1].position, c = corner[2].position;
     vec3 normal = cross(b - a, c - a);
+    if (!is_within_floats(normal)) return;
     int axis = dominant_axis(normal);
     vec2 p[3] = vec2[3](project(a, axis), project(b, axis), project(c, axis));
     vec2 e1 = p[1] - p[0], e2 = p[2] - p[0];

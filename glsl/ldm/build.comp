@@ -26,6 +26,7 @@ uniform int bands; // 0: the first round; else the second, and among how many gr
 
 const int k_small = 64; // texels that one invocation looks at
 const int k_unit = 256; // steps of the snapping in a texel
+const float k_far_off = 4.0e6; // texels: corners beyond (of strays) leave the range of snapped ones
 
 struct FlatTriangle {
     ivec2 corners[3]; // counterclockwise
@@ -80,10 +81,11 @@ FlatTriangle load_triangle(uint triangle, out vec3 positions[3]) {
     return t;
 }
 
-// False without an area.
+// False without an area, or where the triangle cannot be snapped.
 bool flatten(inout FlatTriangle t, vec3 positions[3], LdmView view) {
     for (int i = 0; i < 3; ++i) {
         vec3 p = ldm_project(view, positions[i]);
+        if (!(max(abs(p.x), abs(p.y)) < k_far_off)) return false;
         t.corners[i] = ivec2(round(p.xy * float(k_unit)));
         t.depths[i] = p.z;
     }
@@ -112,6 +114,7 @@ void insert_texel(FlatTriangle t, int slot, ivec2 texel) {
     vec3 weight = vec3(cross_of(bc, centre - t.corners[1]), cross_of(ca, centre - t.corners[2]), cross_of(ab, centre - t.corners[0]));
     float area = cross_of(ab, -ca);
     float depth = (weight.x * t.depths[0] + weight.y * t.depths[1] + weight.z * t.depths[2]) / area;
+    if (!(depth >= 0.0 && depth <= 1.0)) return; // before or behind the view's box lies what strays
     weight /= area;
 
     Material material = materials[draws[t.draw].material];

@@ -28,14 +28,17 @@ struct LdmHits {
 LdmHits ldm_trace(int slot, LdmView view, vec3 x, vec3 normal) {
     float cosine = clamp(dot(normal, view.direction), -1.0, 1.0);
     float texel = max(view.texel.x, view.texel.y);
+    LdmCursor none = LdmCursor(0u, 0u);
+    LdmHits hits = LdmHits(vec2(k_no_hit), none, none);
+    // What strays lies outside of the views' box, and in no map.
+    vec3 place = ldm_project(view, x);
+    if (any(lessThan(place, vec3(-1.0, -1.0, -0.01))) || any(greaterThan(place, vec3(vec2(ldm.resolution + 1), 1.01)))) return hits;
     vec3 p = ldm_project(view, x + normal * (normal_offset * texel * sqrt(1.0 - cosine * cosine)));
     ivec2 at = clamp(ivec2(floor(p.xy)), ivec2(0), ivec2(ldm.resolution - 1));
     vec2 offset = p.xy - (vec2(at) + 0.5);
     float apart = tolerance * texel / view.range;
     float here = p.z;
 
-    LdmCursor none = LdmCursor(0u, 0u);
-    LdmHits hits = LdmHits(vec2(k_no_hit), none, none);
     float before = -1.0, behind = k_no_hit;
     if (own_surface == 0) {
         for (LdmCursor c = ldm_first(ldm_head(slot, at)); !ldm_ended(c); c = ldm_next(c)) {

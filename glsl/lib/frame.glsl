@@ -16,7 +16,7 @@ layout(std140) uniform Frame {
     float near_plane;
     vec3 camera_forward;
     float aspect;
-    vec3 scene_min; // bounds over the whole animation
+    vec3 scene_min; // bounds over the whole animation, without strays (passes/scene/extent.h)
     float scene_diagonal;
     vec3 scene_max;
     float delta_time;

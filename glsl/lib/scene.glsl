@@ -19,7 +19,7 @@ struct Draw {
     uint material;
     uint first_index;
     uint index_count;
-    uint flags; // 1 = dynamic
+    uint flags; // 1 = dynamic, 2 = mirrored: world's determinant is negative
 };
 
 struct TextureUse {
@@ -47,6 +47,20 @@ struct Material {
 
 #ifdef SCENE_DRAWS
 layout(std430) readonly buffer scene_draws { Draw draws[]; };
+
+// Unit, however small or large; 0 stays 0.
+vec3 unit_or_zero(vec3 v) {
+    float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
+    return largest > 0.0 ? normalize(v / largest) : vec3(0.0);
+}
+
+// A vertex's unit normal and tangent in the world. A mirroring transform turns the frame's handedness over.
+vec3 world_normal(Draw draw, vec3 normal) {
+    return unit_or_zero(mat3(draw.normal_matrix) * normal);
+}
+vec4 world_tangent(Draw draw, vec4 tangent) {
+    return vec4(unit_or_zero(mat3(draw.world) * tangent.xyz), (draw.flags & 2u) != 0u ? -tangent.w : tangent.w);
+}
 #endif
 #ifdef SCENE_MATERIALS
 layout(std430) readonly buffer scene_materials { Material materials[]; };

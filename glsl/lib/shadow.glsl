@@ -15,10 +15,10 @@ struct ShadowView {
     float padding_x, padding_y;
 };
 
-// Distance along the view of a stored depth.
+// Distance along the view of a stored depth; far away where nothing was drawn.
 float shadow_distance(ShadowView view, float depth) {
-    if (view.range > 0.0) return (1.0 - depth) * view.range;
-    return depth > 0.0 ? view.near_plane / depth : 1.0e30;
+    if (depth <= 0.0) return 1.0e30;
+    return view.range > 0.0 ? (1.0 - depth) * view.range : view.near_plane / depth;
 }
 
 // Which of a point light's six faces looks at `direction` (from the light).

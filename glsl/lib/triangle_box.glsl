@@ -30,6 +30,12 @@ bool triangle_overlaps_voxel(vec3 a, vec3 b, vec3 c, ivec3 voxel) {
     return true;
 }
 
+// Whether floats can tell which voxels a triangle's plane crosses, given the cross product of its edges: not with edges of
+// some 10⁷ voxels, as stray vertices have them.
+bool is_within_floats(vec3 normal) {
+    return dot(normal, normal) < 1.0e30;
+}
+
 // The axis along which the triangle's projection is largest: 0, 1, 2.
 int dominant_axis(vec3 normal) {
     vec3 size = abs(normal);

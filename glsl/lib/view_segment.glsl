@@ -8,13 +8,14 @@ struct ViewSegment {
     vec2 nearness; // 1/distance along the view at both ends; below 0: not in view
 };
 
-// Cut off at the near plane.
+// Cut off in front of the camera, by a share of its length: a float near 0 is not told from one at 0.
 ViewSegment view_segment(vec3 start, vec3 stop) {
     ViewSegment segment = ViewSegment(vec4(0.0), vec2(-1.0));
     vec4 from = view_projection * vec4(start, 1.0), to = view_projection * vec4(stop, 1.0);
-    if (max(from.w, to.w) <= near_plane) return segment;
-    if (from.w < near_plane) from = mix(to, from, (to.w - near_plane) / (to.w - from.w));
-    if (to.w < near_plane) to = mix(from, to, (from.w - near_plane) / (from.w - to.w));
+    float cut = max(near_plane, 1.0e-4 * max(abs(from.w), abs(to.w)));
+    if (max(from.w, to.w) <= cut) return segment;
+    if (from.w < cut) from = mix(to, from, (to.w - cut) / (to.w - from.w));
+    if (to.w < cut) to = mix(from, to, (from.w - cut) / (from.w - to.w));
     segment.ends = (vec4(from.xy / from.w, to.xy / to.w) * 0.5 + 0.5) * vec4(resolution, resolution);
     segment.nearness = 1.0 / vec2(from.w, to.w);
     return segment;

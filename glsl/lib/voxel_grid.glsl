@@ -1,8 +1,8 @@
 #ifndef LIB_VOXEL_GRID_GLSL
 #define LIB_VOXEL_GRID_GLSL
-// The voxel grid of the ground rules: a cube centred on the scene's bounds over its whole animation,
-// side = longest edge · (1 + 2/resolution), so that a layer of empty voxels lies around. passes/voxel/voxel_grid.h
-// mirrors this file.
+// The voxel grid of the ground rules: a cube centred on the scene's bounds over its whole animation, without strays
+// (passes/scene/extent.h). side = longest edge · (1 + 2/resolution), so that a layer of empty voxels lies around.
+// passes/voxel/voxel_grid.h mirrors this file.
 #include "lib/frame.glsl"
 
 float voxel_grid_side(int grid_resolution) {

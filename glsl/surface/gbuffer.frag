@@ -31,10 +31,9 @@ void main() {
     if (alpha_rejects(material, base.a)) discard;
 
     vec3 to_viewer = normalize(camera_position - surface.position);
-    float face_length = length(face);
-    vec3 authored = normalize(surface.normal);
-    face = face_length > 0.0 ? face / face_length : authored;
+    face = unit_or(face, unit_or(surface.normal, to_viewer));
     if (dot(face, to_viewer) < 0.0) face = -face;
+    vec3 authored = unit_or(surface.normal, face);
 
     vec3 shading = shading_normal(material, authored, surface.tangent, mapped);
     shading = turn_toward_viewer(shading, face, to_viewer);

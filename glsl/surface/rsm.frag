@@ -32,9 +32,8 @@ void main() {
 
     vec3 l;
     vec3 irradiance = light_irradiance(lights[light_index], surface.position, l);
-    vec3 authored = normalize(surface.normal);
-    float face_length = length(face);
-    face = face_length > 0.0 ? face / face_length : authored;
+    face = unit_or(face, unit_or(surface.normal, l));
+    vec3 authored = unit_or(surface.normal, face);
     vec3 n = turn_toward_viewer(shading_normal(material, authored, surface.tangent, mapped), face, l);
     float cosine = max(dot(n, l), 0.0);
     radiance = vec4(min(brdf_diffuse(base.rgb, clamp(metallic, 0.0, 1.0)) * irradiance * cosine, vec3(65504.0)), cosine);

@@ -20,8 +20,8 @@ void main() {
     Draw draw = draws[gl_BaseInstance];
     vec4 position = draw.world * vec4(vertex_position_u.xyz, 1.0);
     surface.position = position.xyz;
-    surface.normal = mat3(draw.normal_matrix) * vertex_normal_v.xyz;
-    surface.tangent = vec4(mat3(draw.world) * vertex_tangent.xyz, vertex_tangent.w);
+    surface.normal = world_normal(draw, vertex_normal_v.xyz);
+    surface.tangent = world_tangent(draw, vertex_tangent);
     surface.uv = vec4(vertex_position_u.w, vertex_normal_v.w, vertex_uv1);
     surface.colour = vertex_colour();
     surface_material = draw.material;

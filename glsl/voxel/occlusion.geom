@@ -47,6 +47,7 @@ void emit(vec2 plane, vec4 uv, vec4 colour, vec3 facing) {
 void main() {
     vec3 a = corner[0].position, b = corner[1].position, c = corner[2].position;
     vec3 normal = cross(b - a, c - a);
+    if (!is_within_floats(normal)) return;
     float size = length(normal);
     vec3 facing = size > 0.0 ? normal / size : vec3(0.0);
     if (dot(facing, corner[0].normal + corner[1].normal + corner[2].normal) < 0.0) facing = -facing;

@@ -83,10 +83,12 @@ void visit_triangles() {
     VisitedTriangle t = load_triangle(triangle, draw_count);
     vec3 p[3] = t.positions;
     vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
-    if (!(dot(normal, normal) > 0.0)) return;
+    if (!(dot(normal, normal) > 0.0) || !is_within_floats(normal)) return;
 
-    // The box around the triangle. Touching counts, so a corner on a border belongs to both sides.
-    vec3 least = min(p[0], min(p[1], p[2])), most = max(p[0], max(p[1], p[2]));
+    // The box around the triangle, as far as it lies in the grid. Touching counts, so a corner on a border belongs to both
+    // sides.
+    float outside = float(resolution_of_grid) + 1.0;
+    vec3 least = clamp(min(p[0], min(p[1], p[2])), -1.0, outside), most = clamp(max(p[0], max(p[1], p[2])), -1.0, outside);
     ivec3 low = max(ivec3(ceil(least)) - 1, ivec3(0));
     ivec3 high = min(ivec3(floor(most)), ivec3(resolution_of_grid - 1));
     if (any(lessThan(high, low))) return;
@@ -102,7 +104,7 @@ void visit_triangles() {
     for (int i = lane; i < columns; i += k_lanes) {
         ivec2 column = plane_low + ivec2(i % width, i / width);
         vec3 middle = vec3(unproject(column, 0, axis)) + 0.5;
-        float depth = p[0][axis] - dot(across, middle - p[0]) / normal[axis];
+        float depth = clamp(p[0][axis] - dot(across, middle - p[0]) / normal[axis], -4.0, outside + 4.0);
         int from = max(int(floor(depth - reach)), low[axis]), to = min(int(floor(depth + reach)), high[axis]);
         for (int d = from; d <= to; ++d) { // at most four: the slopes are at most 1
             ivec3 voxel = unproject(column, d, axis);

@@ -249,14 +249,19 @@ void PassContext::draw_scene(const std::string& name, const Targets& targets, co
     const auto& draws = scene().draw_list();
     const auto& materials = scene().material_list();
     int bound_material = -1;
-    bool culling = false;
-    glFrontFace(options.y_turned ? GL_CW : GL_CCW);
+    bool culling = false, clockwise = options.y_turned;
+    glFrontFace(clockwise ? GL_CW : GL_CCW);
     for (size_t i = 0; i < draws.size(); ++i) {
         const GpuDraw& draw = draws[i];
-        bool dynamic = draw.flags & 1u;
+        bool dynamic = draw.flags & GpuDraw::k_dynamic;
         if (options.which == DrawOptions::Which::static_only && dynamic) continue;
         if (options.which == DrawOptions::Which::dynamic_only && !dynamic) continue;
         if (options.keep && !options.keep(int(i))) continue;
+        // The determinant of a node's transform turns the winding of its triangles (glTF 2.0 §3.7.2.1).
+        if (bool turned = bool(draw.flags & GpuDraw::k_mirrored) != options.y_turned; turned != clockwise) {
+            clockwise = turned;
+            glFrontFace(clockwise ? GL_CW : GL_CCW);
+        }
         int material = int(draw.material);
         if (material != bound_material) {
             bound_material = material;

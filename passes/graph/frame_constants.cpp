@@ -1,6 +1,7 @@
 #include "graph/frame_constants.h"
 
 #include "scene/camera_ray.h"
+#include "scene/near_plane.h"
 
 #include <cmath>
 #include <map>
@@ -16,7 +17,7 @@ void set_camera(FrameConstants& c, const Camera& camera, glm::ivec2 resolution, 
     c.resolution = resolution;
     c.aspect = float(resolution.x) / float(resolution.y);
     c.tan_half_vfov = std::tan(0.5f * camera.vfov);
-    c.near_plane = 2e-4f * (scene_diagonal > 0 ? scene_diagonal : 1.0f);
+    c.near_plane = camera.near_plane > 0 ? camera.near_plane : smallest_near_plane(scene_diagonal);
 
     glm::mat3 rotation = glm::transpose(glm::mat3(basis[0], basis[1], -basis[2]));
     c.view = glm::mat4(rotation);

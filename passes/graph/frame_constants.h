@@ -22,7 +22,7 @@ struct FrameConstants {
     glm::vec3 camera_right{1, 0, 0};
     float tan_half_vfov = 1;
     glm::vec3 camera_up{0, 1, 0};
-    float near_plane = 0.01f; ///< metres
+    float near_plane = 0.01f; ///< metres; only the scale of depths, unless the camera has a plane of its own
     glm::vec3 camera_forward{0, 0, -1};
     float aspect = 1;       ///< width / height
     glm::vec3 scene_min{0}; ///< bounds over the animation
@@ -41,7 +41,8 @@ struct FrameConstants {
 };
 static_assert(sizeof(FrameConstants) == 5 * 64 + 7 * 16 + 2 * 16);
 
-/// One camera's part: matrices, basis, near plane (a share of the scene's diagonal).
+/// One camera's part: matrices, basis, near plane. The plane is the camera's own, or else nearer than anything that
+/// floats tell apart: depth = near ÷ distance is a float, as precise with the smallest plane as with a large one.
 void set_camera(FrameConstants& constants, const Camera& camera, glm::ivec2 resolution, float scene_diagonal);
 
 /// A constant by its name, as a plain uniform may ask for it (matrices come through the block only).

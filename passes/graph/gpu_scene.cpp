@@ -1,6 +1,7 @@
 #include "graph/gpu_scene.h"
 
 #include "core/error.h"
+#include "scene/normal_transform.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,15 +109,12 @@ void GpuScene::update(const SceneState& state) {
         GpuDraw draw;
         draw.world = instance.world;
         draw.previous_world = instance.previous_world;
-        // The adjugate's transpose turns normals even where the matrix is singular.
-        glm::mat3 m(instance.world);
-        glm::mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-        float sign = glm::determinant(m) < 0 ? -1.0f : 1.0f;
-        draw.normal_matrix = glm::mat4(cofactors * sign);
+        NormalTransform turn(instance.world);
+        draw.normal_matrix = glm::mat4(turn.matrix);
         draw.material = uint32_t(instance.primitive.material);
         draw.first_index = instance.primitive.first_index;
         draw.index_count = instance.primitive.index_count;
-        draw.flags = instance.dynamic ? 1u : 0u;
+        draw.flags = (instance.dynamic ? GpuDraw::k_dynamic : 0u) | (turn.mirrored ? GpuDraw::k_mirrored : 0u);
         draw_list_.push_back(draw);
     }
     light_list_.clear();

@@ -17,6 +17,7 @@ namespace bounce {
 struct GpuDraw {
     glm::mat4 world, previous_world, normal_matrix;
     uint32_t material, first_index, index_count, flags;
+    static constexpr uint32_t k_dynamic = 1, k_mirrored = 2; ///< bits of `flags`
 };
 static_assert(sizeof(GpuDraw) == 208);
 struct GpuTextureUse {

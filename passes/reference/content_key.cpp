@@ -75,6 +75,7 @@ static void add_camera(ContentHash& hash, const Camera& camera) {
     hash.add_value(camera.target);
     hash.add_value(camera.up);
     hash.add_value(camera.vfov);
+    hash.add_value(camera.near_plane);
 }
 
 static void add_scene(ContentHash& hash, const Scene& scene) {

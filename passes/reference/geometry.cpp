@@ -189,8 +189,8 @@ Surface TraceGeometry::read_surface(const SurfacePlace& place, const Hit& hit, c
         if (glm::dot(tangent, tangent) > 1e-12f) {
             tangent = glm::normalize(tangent);
             // A mirroring transform turns the frame's handedness over.
-            const float handedness = geometry.mirrored ? -t.a->tangent.w : t.a->tangent.w;
-            const glm::vec3 bitangent = handedness * glm::cross(normal, tangent);
+            const float handedness = mix_corners(t.a->tangent.w, t.b->tangent.w, t.c->tangent.w, u, v);
+            const glm::vec3 bitangent = (geometry.mirrored ? -handedness : handedness) * glm::cross(normal, tangent);
             normal = unit_or(x * tangent + y * bitangent + (2 * texel.z - 1) * normal, normal);
         }
     }

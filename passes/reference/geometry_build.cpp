@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "reference/geometry.h"
+#include "scene/normal_transform.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -78,12 +79,8 @@ void TraceGeometry::add_geometry(const Scene& scene, const Instance& instance) {
     if (first + count > scene.indices.size()) throw Error("a primitive of the scene names indices beyond its last one");
 
     const glm::mat3 linear(instance.world);
-    const float determinant = glm::determinant(linear);
-    geometry.mirrored = determinant < 0;
-    // The matrix of cofactors is the transposed inverse times the determinant, and exists for flattening scales too.
-    const glm::mat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                              glm::cross(linear[0], linear[1]));
-    const glm::mat3 normal_matrix = geometry.mirrored ? cofactors * -1.0f : cofactors;
+    const NormalTransform turn(instance.world);
+    geometry.mirrored = turn.mirrored;
     auto unit = [](const glm::vec3& v) {
         float length = glm::length(v);
         return length > 0 && length < 1e30f ? v / length : glm::vec3(0);
@@ -99,7 +96,7 @@ void TraceGeometry::add_geometry(const Scene& scene, const Instance& instance) {
     if (count) geometry.vertices.assign(scene.vertices.begin() + lowest, scene.vertices.begin() + highest + 1);
     for (Vertex& vertex : geometry.vertices) {
         vertex.position = glm::vec3(instance.world * glm::vec4(vertex.position, 1));
-        vertex.normal = unit(normal_matrix * vertex.normal);
+        vertex.normal = unit(turn.matrix * vertex.normal);
         vertex.tangent = glm::vec4(unit(linear * glm::vec3(vertex.tangent)), vertex.tangent.w);
         if (vertex.colour_rg != 0xffffffffu || vertex.colour_ba != 0xffffffffu) geometry.vertex_colours = true;
     }

@@ -65,7 +65,7 @@ TraceScene::TraceScene(const Shot& shot, const ShotState& state, const Reference
       camera_basis(bounce::camera_basis(camera.position, camera.target, camera.up)),
       tan_half_vfov(std::tan(0.5f * camera.vfov)), size(float(shot.width), float(shot.height)), settings(s),
       diffuse_only(s.diffuse_only || shot.diffuse_only),
-      occlusion_distance(s.occlusion_distance * geometry.bounds().diagonal()) {}
+      occlusion_distance(s.occlusion_distance * shot_facts(shot).bounds_over_animation.diagonal()) {}
 
 float TraceScene::near_visibility(float distance) const {
     const float share = distance / occlusion_distance;
@@ -291,7 +291,7 @@ void Integrator::begin(int x, int y, PixelSampler& sampler, PixelSample& out, st
     const glm::vec2 jitter = sampler.next_pair();
     const glm::vec3 camera_direction =
         camera_ray(scene_.camera_basis, scene_.tan_half_vfov, scene_.size, glm::vec2(x, y) + jitter);
-    const Hit first = trace(scene_.camera.position, camera_direction);
+    const Hit first = trace(camera_ray_start(scene_.camera, scene_.camera_basis, camera_direction), camera_direction);
     if (!first.valid()) {
         if (scene_.environment.present()) add(emission, scene_.environment.radiance(camera_direction));
         open = open_near = 1;
@@ -370,7 +370,8 @@ PixelSurface Integrator::centre(int x, int y) {
     PixelSurface out;
     const glm::vec3 direction =
         camera_ray(scene_.camera_basis, scene_.tan_half_vfov, scene_.size, glm::vec2(x, y) + 0.5f);
-    const Hit hit = scene_.geometry.intersect(scene_.camera.position, direction, k_infinity);
+    const glm::vec3 start = camera_ray_start(scene_.camera, scene_.camera_basis, direction);
+    const Hit hit = scene_.geometry.intersect(start, direction, k_infinity);
     if (!hit.valid()) return out;
     const Surface surface = scene_.geometry.surface(hit, direction);
     out.hit = true;
@@ -380,7 +381,7 @@ PixelSurface Integrator::centre(int x, int y) {
     out.material = float(surface.material);
     out.roughness = surface.roughness;
     out.metallic = surface.metallic;
-    out.distance = hit.distance;
+    out.distance = glm::distance(scene_.camera.position, start) + hit.distance;
     return out;
 }
 

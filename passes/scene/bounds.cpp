@@ -1,8 +1,5 @@
-#include "scene/keyframes.h"
+#include "scene/motion.h"
 #include "scene/scene.h"
-
-#include <algorithm>
-#include <cmath>
 
 namespace bounce {
 
@@ -16,138 +13,10 @@ void Bounds::add(const Bounds& b) {
     max = glm::max(max, b.max);
 }
 
-namespace {
-
-glm::vec3 transform(const glm::mat4& world, const glm::vec3& p) {
-    return glm::vec3(world[0]) * p.x + glm::vec3(world[1]) * p.y + glm::vec3(world[2]) * p.z + glm::vec3(world[3]);
-}
-
-void add_primitive(const Scene& scene, const Primitive& primitive, const glm::mat4& world, Bounds& bounds) {
+static void add_primitive(const Scene& scene, const Primitive& primitive, const glm::mat4& world, Bounds& bounds) {
     for (uint32_t i = 0; i < primitive.index_count; ++i)
-        bounds.add(transform(world, scene.vertices[scene.indices[primitive.first_index + i]].position));
+        bounds.add(world_point(world, scene.vertices[scene.indices[primitive.first_index + i]].position));
 }
-
-// --- When to look -------------------------------------------------------------------------------------------------
-
-constexpr float k_turn = 0.05f; // radians between samples of a rotation
-
-size_t steps_between(const AnimationChannel& channel, size_t key) {
-    if (channel.interpolation == Interpolation::step) return 1;
-    if (channel.interpolation == Interpolation::cubic_spline) return 16;
-    if (channel.target != AnimationTarget::rotation) return 2;
-    glm::vec4 a = channel.values[key], b = channel.values[key + 1];
-    float cosine = std::abs(glm::dot(a, b)) / std::max(glm::length(a) * glm::length(b), 1e-20f);
-    return 2 + size_t(2 * std::acos(std::min(cosine, 1.0f)) / k_turn);
-}
-
-void add_steps(std::vector<float>& times, float from, float to, size_t steps) {
-    // The moment before a key is where a step, or the end of a loop, still shows the old value.
-    for (size_t i = 0; i < steps; ++i)
-        times.push_back(from + (to - from) * (float(i) / float(steps)));
-    times.push_back(std::nextafter(to, from));
-    times.push_back(to);
-}
-
-/// Times of one cycle of every animation and of all paths. When animations of unequal length loop side by side, cycles
-/// are added until the shared period, or 16 of the longest.
-std::vector<float> sample_times(const Scene& scene, size_t most) {
-    std::vector<float> times{0};
-    float longest = 0;
-    for (const Animation& animation : scene.animations)
-        longest = std::max(longest, animation.duration);
-    int repeats = 1;
-    for (; repeats < 16; ++repeats) {
-        bool shared = std::all_of(scene.animations.begin(), scene.animations.end(), [&](const Animation& animation) {
-            float cycles = longest * float(repeats) / std::max(animation.duration, 1e-6f);
-            return animation.duration <= 0 || std::abs(cycles - std::round(cycles)) < 1e-3f;
-        });
-        if (shared) break;
-    }
-    for (const Animation& animation : scene.animations) {
-        if (animation.duration <= 0) continue;
-        std::vector<float> cycle;
-        for (const AnimationChannel& channel : animation.channels) {
-            for (size_t k = 0; k + 1 < channel.times.size() && cycle.size() < 16 * most; ++k)
-                add_steps(cycle, channel.times[k], channel.times[k + 1], steps_between(channel, k));
-        }
-        std::sort(cycle.begin(), cycle.end());
-        cycle.erase(std::unique(cycle.begin(), cycle.end()), cycle.end());
-        float horizon = longest * float(repeats);
-        for (float start = 0; start < horizon && times.size() < 16 * most; start += animation.duration) {
-            for (float t : cycle)
-                times.push_back(start + t);
-            times.push_back(std::nextafter(start + animation.duration, 0.0f));
-        }
-    }
-    for (const Node& node : scene.nodes)
-        for (size_t k = 0; k < node.path.keys.size() && times.size() < 32 * most; ++k) {
-            const auto& keys = node.path.keys;
-            if (k + 1 < keys.size())
-                add_steps(times, keys[k].t, keys[k + 1].t, keys[k].has_target ? 64 : 2);
-            else
-                times.push_back(keys[k].t);
-        }
-    std::sort(times.begin(), times.end());
-    times.erase(std::unique(times.begin(), times.end()), times.end());
-    if (times.size() <= most) return times;
-    std::vector<float> thinned;
-    for (size_t i = 0; i < most; ++i)
-        thinned.push_back(times[i * (times.size() - 1) / (most - 1)]);
-    return thinned;
-}
-
-// --- What to look at ----------------------------------------------------------------------------------------------
-
-/// One moving primitive: the points that stand for it, and its box (whose corners tell how far a path bows between
-/// two samples).
-struct Mover {
-    size_t node;
-    std::vector<glm::vec3> points;
-    std::array<glm::vec3, 8> corners;
-};
-
-std::array<glm::vec3, 8> corners_of(const Bounds& box) {
-    std::array<glm::vec3, 8> out;
-    for (int i = 0; i < 8; ++i)
-        out[size_t(i)] = {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z};
-    return out;
-}
-
-Mover make_mover(const Scene& scene, size_t node, const Primitive& primitive) {
-    std::vector<uint32_t> used(scene.indices.begin() + primitive.first_index,
-                               scene.indices.begin() + primitive.first_index + primitive.index_count);
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    Mover mover{node, {}, {}};
-    Bounds box;
-    for (uint32_t index : used) {
-        mover.points.push_back(scene.vertices[index].position);
-        box.add(mover.points.back());
-    }
-    mover.corners = corners_of(box);
-    return mover;
-}
-
-/// How far the path of any corner bows out of the straight line between two times, told by the middle.
-float bow(const Mover& mover, const glm::mat4& a, const glm::mat4& middle, const glm::mat4& b) {
-    float most = 0;
-    for (const glm::vec3& p : mover.corners) {
-        glm::vec3 off = transform(middle, p) - 0.5f * (transform(a, p) + transform(b, p));
-        most = std::max(most, glm::length(off));
-    }
-    return most;
-}
-
-/// Whether motion is continuous from a to b: they are more than a rounding apart, and no animation starts over.
-bool smooth_between(const Scene& scene, float a, float middle, float b) {
-    if (!(middle > std::nextafter(a, b) && middle < std::nextafter(b, a))) return false;
-    return std::all_of(scene.animations.begin(), scene.animations.end(), [&](const Animation& animation) {
-        float from = loop_time(animation, a), half = loop_time(animation, middle), to = loop_time(animation, b);
-        return animation.duration <= 0 || (from <= half && half <= to);
-    });
-}
-
-} // namespace
 
 Bounds scene_bounds(const Scene& scene, float time) {
     Bounds bounds;
@@ -162,48 +31,19 @@ Bounds scene_bounds(const Scene& scene, float time) {
 Bounds scene_bounds_over_animation(const Scene& scene) {
     Bounds bounds;
     std::vector<Mover> movers;
-    size_t points = 0;
     std::vector<glm::mat4> start = world_matrices(scene, 0);
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
         const Node& node = scene.nodes[i];
         if (node.mesh < 0) continue;
         for (const Primitive& primitive : scene.meshes[size_t(node.mesh)].primitives) {
-            if (node.dynamic) {
-                movers.push_back(make_mover(scene, i, primitive));
-                points += movers.back().points.size();
-            } else {
+            auto first = scene.indices.begin() + primitive.first_index;
+            if (node.dynamic)
+                movers.push_back({i, points_of(scene, {first, first + primitive.index_count})});
+            else
                 add_primitive(scene, primitive, start[i], bounds);
-            }
         }
     }
-    if (movers.empty()) return bounds;
-
-    size_t channels = 0;
-    for (const Animation& animation : scene.animations)
-        channels += animation.channels.size();
-    size_t most = std::clamp<size_t>(4'000'000 / (scene.nodes.size() + channels + 1), 64, 4096);
-    std::vector<float> times = sample_times(scene, most);
-    // Exact by every vertex where that is affordable; by the corners of the mesh's box otherwise, which is never too
-    // small, and at most √3 times too large for a turned mesh.
-    if (points * times.size() > 60'000'000)
-        for (Mover& mover : movers)
-            mover.points.assign(mover.corners.begin(), mover.corners.end());
-
-    std::vector<glm::mat4> before = start;
-    for (size_t i = 0; i < times.size(); ++i) {
-        std::vector<glm::mat4> now = world_matrices(scene, times[i]);
-        float middle = i ? 0.5f * (times[i - 1] + times[i]) : 0;
-        bool between = i > 0 && smooth_between(scene, times[i - 1], middle, times[i]);
-        std::vector<glm::mat4> halfway = between ? world_matrices(scene, middle) : now;
-        for (const Mover& mover : movers) {
-            float margin = between ? bow(mover, before[mover.node], halfway[mover.node], now[mover.node]) : 0;
-            Bounds box;
-            for (const glm::vec3& p : mover.points)
-                box.add(transform(now[mover.node], p));
-            bounds.add(Bounds{box.min - margin, box.max + margin});
-        }
-        before = std::move(now);
-    }
+    if (!movers.empty()) visit_motion(scene, movers, [&](size_t, const Bounds& box, size_t) { bounds.add(box); });
     return bounds;
 }
 

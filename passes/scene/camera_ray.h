@@ -25,4 +25,10 @@ inline glm::vec3 camera_ray(const glm::mat3& basis, float tan_half_vfov, const g
     return glm::normalize(basis * glm::vec3(plane, 1.0f));
 }
 
+/// Where what the camera sees along a unit `direction` begins: on its near plane, if it has one.
+inline glm::vec3 camera_ray_start(const Camera& camera, const glm::mat3& basis, const glm::vec3& direction) {
+    if (!(camera.near_plane > 0)) return camera.position;
+    return camera.position + direction * (camera.near_plane / glm::dot(direction, basis[2]));
+}
+
 } // namespace bounce

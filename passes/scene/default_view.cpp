@@ -1,5 +1,6 @@
 #include "scene/default_view.h"
 
+#include "scene/extent.h"
 #include "scene/occupancy_grid.h"
 
 #include <algorithm>
@@ -161,7 +162,7 @@ Camera framing_camera(const Bounds& bounds, const glm::vec3& direction, float vf
 
 DefaultView default_view(const Scene& scene, float aspect) {
     DefaultView view;
-    Bounds bounds = scene_bounds(scene, 0);
+    Bounds bounds = scene_extent(scene, 0).bounds;
     glm::vec3 from_above = glm::normalize(glm::vec3(-0.55f, -0.35f, -1));
     view.camera = framing_camera(bounds, from_above, 0.8f, aspect);
     if (bounds.empty() || !std::isfinite(bounds.diagonal()) || bounds.diagonal() == 0) return view;

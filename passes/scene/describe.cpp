@@ -1,7 +1,9 @@
 #include "scene/describe.h"
 
 #include "core/text.h"
+#include "scene/extent.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace bounce {
@@ -53,6 +55,17 @@ void add_needs(const SceneFacts& facts, const Shot& shot, std::vector<std::strin
 
 } // namespace
 
+std::string describe_strays(const SceneFacts& facts) {
+    float kept = longest_edge(facts.bounds_over_animation), whole = longest_edge(facts.whole_bounds);
+    if (!(whole > kept)) return "";
+    std::string what = facts.stray_triangles == 0   ? "moving geometry strays"
+                       : facts.stray_triangles == 1 ? "1 triangle strays"
+                                                    : with_commas(facts.stray_triangles) + " triangles stray";
+    return fmt::format("{} {:.3g} times as far as the rest reaches; voxel grids, layered depth maps, shadow maps of "
+                       "directional lights and lengths in diagonals leave that out",
+                       what, double(whole) / double(std::max(kept, 1e-30f)));
+}
+
 std::string describe_scene(const Shot& shot) {
     SceneFacts facts = shot_facts(shot);
     std::string out;
@@ -78,6 +91,10 @@ std::string describe_scene(const Shot& shot) {
              : "none");
     line("bounds", box(facts.bounds));
     if (facts.dynamic_instances > 0) line("  over time", box(facts.bounds_over_animation));
+    if (std::string strays = describe_strays(facts); !strays.empty()) {
+        line("  in all", box(facts.whole_bounds));
+        line("  left out", strays);
+    }
 
     std::vector<std::string> needs, not_needs;
     add_needs(facts, shot, needs, not_needs);

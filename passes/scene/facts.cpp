@@ -1,4 +1,5 @@
 #include "scene/describe.h"
+#include "scene/extent.h"
 #include "scene/keyframes.h"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ void count_materials(const Scene& scene, const std::vector<bool>& used, bool dif
 
 } // namespace
 
-SceneFacts scene_facts(const Scene& scene, bool diffuse_only) {
+SceneFacts scene_facts(const Scene& scene, bool diffuse_only, std::span<const Camera> views) {
     SceneFacts facts;
     facts.vertices = scene.vertices.size();
     std::vector<bool> used(scene.materials.size(), false);
@@ -73,14 +74,23 @@ SceneFacts scene_facts(const Scene& scene, bool diffuse_only) {
     }
     count_materials(scene, used, diffuse_only, facts);
     facts.animation_duration = animation_duration(scene);
-    facts.bounds = scene_bounds(scene, 0);
-    bool moves = facts.dynamic_instances > 0;
-    facts.bounds_over_animation = moves ? scene_bounds_over_animation(scene) : facts.bounds;
+    SceneExtent extent = scene_extent(scene, 0, views);
+    facts.bounds = extent.bounds;
+    if (facts.dynamic_instances > 0) extent = scene_extent_over_animation(scene, views);
+    facts.bounds_over_animation = extent.bounds;
+    facts.whole_bounds = extent.whole;
+    facts.stray_triangles = extent.stray_triangles;
     return facts;
 }
 
 SceneFacts shot_facts(const Shot& shot) {
-    SceneFacts facts = scene_facts(shot.scene, shot.diffuse_only);
+    std::vector<Camera> views{shot.camera};
+    for (const PathKey& key : shot.camera_path.keys) {
+        views.push_back(shot.camera);
+        views.back().position = key.position;
+    }
+    if (!shot.camera_path.empty()) views.erase(views.begin());
+    SceneFacts facts = scene_facts(shot.scene, shot.diffuse_only, views);
     facts.environment = shot.environment.present();
     if (!shot.camera_path.empty())
         facts.animation_duration = std::max(facts.animation_duration, shot.camera_path.keys.back().t);

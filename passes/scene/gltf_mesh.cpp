@@ -40,6 +40,9 @@ class MeshReader {
         note(incomplete_, "whose last indices make no whole triangle", "cut short");
         if (bad_normals_)
             scene_.notes.push_back(fmt::format("{} normals of length zero or not finite were replaced", bad_normals_));
+        if (bad_tangents_)
+            scene_.notes.push_back(fmt::format(
+                "{} tangents of length zero, not finite or without handedness were replaced", bad_tangents_));
     }
 
   private:
@@ -79,7 +82,7 @@ class MeshReader {
         spend(count, at);
         std::vector<Vertex> vertices(count);
         for (Vertex& v : vertices)
-            v.tangent = glm::vec4(0, 0, 0, 1); // none yet: finish_tangents finds one
+            v.tangent = glm::vec4(0); // none yet
         auto each = [&](const char* name, int fewest, int most, auto&& set) {
             std::vector<glm::vec4> values = attribute(attributes, name, at, count, fewest, most);
             for (size_t i = 0; i < values.size(); ++i)
@@ -91,8 +94,10 @@ class MeshReader {
         });
         each("NORMAL", 3, 3, [](Vertex& v, const glm::vec4& value, size_t) { v.normal = value; });
         each("TANGENT", 4, 4, [](Vertex& v, const glm::vec4& value, size_t) {
-            bool usable = finite(value) && glm::length(glm::vec3(value)) > 0;
-            v.tangent = glm::vec4(usable ? glm::normalize(glm::vec3(value)) : glm::vec3(0), value.w < 0 ? -1.0f : 1.0f);
+            // What is missing of direction or handedness is made later (make_tangents).
+            bool usable = usable_normal(glm::vec3(value)), handed = value.w == 1 || value.w == -1;
+            glm::vec3 direction = usable ? glm::vec3(glm::normalize(glm::dvec3(value))) : glm::vec3(0);
+            v.tangent = glm::vec4(direction, handed ? value.w : 0.0f);
         });
         each("TEXCOORD_0", 2, 2, [](Vertex& v, const glm::vec4& value, size_t) {
             if (finite(value)) v.u0 = value.x, v.v0 = value.y;
@@ -151,16 +156,37 @@ class MeshReader {
         const TextureSlot& normal_slot = scene_.materials[size_t(material)].normal_texture;
         bool flat = !from.attributes.contains("NORMAL");
         // The specification has tangents ignored where there are no normals.
-        bool wants_tangents = normal_slot.texture >= 0 && (flat || !from.attributes.contains("TANGENT"));
+        Defects defects = defects_of(from.attributes, at);
+        bool wants_tangents = normal_slot.texture >= 0 && (flat || defects.tangents);
 
         Key key{{from.attributes.begin(), from.attributes.end()}, from.indices, mode, wants_tangents ? material : -1};
         auto [known, is_new] = made_.try_emplace(key);
         if (is_new) {
-            known->second = flat || wants_tangents ? make_own(key, from, normal_slot, at) : make_shared(key, from, at);
+            bool own = flat || defects.normals || wants_tangents;
+            known->second = own ? make_own(key, from, normal_slot, at) : make_shared(key, from, at);
         }
         Primitive primitive = known->second;
         primitive.material = material;
         if (primitive.index_count > 0) mesh.primitives.push_back(primitive);
+    }
+
+    /// What some of a set of vertices lack. Normals and tangents are then made for each primitive from its own
+    /// triangles: primitives may share vertices and nothing else.
+    struct Defects {
+        bool normals = false;  ///< of length zero or not finite
+        bool tangents = false; ///< or no handedness
+    };
+    Defects defects_of(const Attributes& attributes, const std::string& at) {
+        auto [known, is_new] = defects_.try_emplace(attributes);
+        if (!is_new) return known->second;
+        size_t bad_tangents = 0;
+        for (const Vertex& v : read_vertices(attributes, at)) {
+            known->second.normals = known->second.normals || !usable_normal(v.normal);
+            bad_tangents += !has_tangent(v);
+        }
+        known->second.tangents = bad_tangents > 0;
+        if (attributes.contains("TANGENT")) bad_tangents_ += bad_tangents;
+        return known->second;
     }
 
     struct Key {
@@ -179,14 +205,14 @@ class MeshReader {
         if (is_new) {
             check_room(count, indices.size(), at);
             std::vector<Vertex> vertices = read_vertices(key.attributes, at);
-            bad_normals_ += repair_normals(vertices, indices);
+            repair_normals(vertices, indices);
             finish_tangents(vertices);
             scene_.vertices.insert(scene_.vertices.end(), vertices.begin(), vertices.end());
         }
         return append_indices(indices, base->second, at);
     }
 
-    /// Vertices that change (flat normals, tangents made) belong to one primitive, and only those that it uses are
+    /// Vertices that change (normals or tangents made) belong to one primitive, and only those that it uses are
     /// kept.
     Primitive make_own(const Key& key, const tinygltf::Primitive& from, const TextureSlot& normal_slot,
                        const std::string& at) {
@@ -199,17 +225,10 @@ class MeshReader {
         else
             bad_normals_ += repair_normals(vertices, indices);
         if (key.tangent_material >= 0) make_tangents(vertices, indices, normal_slot);
+        finish_tangents(vertices);
         size_t base = scene_.vertices.size();
         scene_.vertices.insert(scene_.vertices.end(), vertices.begin(), vertices.end());
         return append_indices(indices, base, at);
-    }
-
-    static void finish_tangents(std::vector<Vertex>& vertices) {
-        for (Vertex& v : vertices) {
-            glm::vec3 t = glm::vec3(v.tangent);
-            bool usable = glm::length(t - v.normal * glm::dot(v.normal, t)) > 1e-6f;
-            if (!usable) v.tangent = glm::vec4(any_orthogonal(v.normal), v.tangent.w);
-        }
     }
 
     /// Elements read in all, so that a small file cannot ask for hours of work.
@@ -239,11 +258,12 @@ class MeshReader {
     Scene& scene_;
     std::map<Key, Primitive> made_;
     std::map<Attributes, size_t> vertex_base_;
+    std::map<Attributes, Defects> defects_;
     Attributes read_attributes_;
     std::vector<Vertex> read_vertices_;
     size_t work_ = 0;
     int default_material_ = -1;
-    size_t lines_ = 0, without_positions_ = 0, incomplete_ = 0, bad_normals_ = 0;
+    size_t lines_ = 0, without_positions_ = 0, incomplete_ = 0, bad_normals_ = 0, bad_tangents_ = 0;
 };
 
 } // namespace

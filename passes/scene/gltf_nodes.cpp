@@ -138,6 +138,9 @@ class NodeReader {
                     fmt::format("cameras[{}] {} and is read as a perspective one of {:.0f} degrees", i,
                                 from.type == "perspective" ? "has an impossible yfov" : "is orthographic",
                                 glm::degrees(camera.vfov)));
+            // The near plane of an orthographic camera says nothing about a perspective one at its place.
+            if (from.type == "perspective" && from.perspective.znear > 0)
+                camera.near_plane = float(from.perspective.znear);
             scene_.cameras.push_back(std::move(camera));
         }
     }

@@ -1,11 +1,30 @@
 #include "scene/occupancy_grid.h"
 
+#include "scene/extent.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace bounce {
 
-OccupancyGrid::OccupancyGrid(const Scene& scene, int resolution) : bounds_(scene_bounds(scene, 0)) {
+/// The part of a convex polygon inside a box (Sutherland & Hodgman, "Reentrant polygon clipping", 1974).
+static std::vector<glm::dvec3> clipped(std::vector<glm::dvec3> polygon, const Bounds& box) {
+    for (int side = 0; side < 6 && !polygon.empty(); ++side) {
+        int axis = side / 2;
+        double sign = side % 2 ? 1 : -1, limit = side % 2 ? box.max[axis] : -double(box.min[axis]);
+        std::vector<glm::dvec3> kept;
+        for (size_t i = 0; i < polygon.size(); ++i) {
+            const glm::dvec3 &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+            double a = limit - sign * from[axis], b = limit - sign * to[axis];
+            if (a >= 0) kept.push_back(from);
+            if ((a >= 0) != (b >= 0)) kept.push_back(from + (to - from) * (a / (a - b)));
+        }
+        polygon = std::move(kept);
+    }
+    return polygon;
+}
+
+OccupancyGrid::OccupancyGrid(const Scene& scene, int resolution) : bounds_(scene_extent(scene, 0).bounds) {
     if (bounds_.empty()) bounds_ = {glm::vec3(0), glm::vec3(0)};
     glm::vec3 extent = bounds_.size();
     float longest = std::max({extent.x, extent.y, extent.z});
@@ -30,7 +49,7 @@ OccupancyGrid::OccupancyGrid(const Scene& scene, int resolution) : bounds_(scene
                     corners[k] = glm::vec3(worlds[n] * glm::vec4(v.position, 1));
                     normal += turn * v.normal;
                 }
-                add_triangle(corners, normal);
+                add_inside(corners, normal);
             }
     }
 }
@@ -45,6 +64,21 @@ int OccupancyGrid::cell_index(const glm::vec3& p) const {
 bool OccupancyGrid::occupied(const glm::vec3& p) const {
     int index = cell_index(p);
     return index >= 0 && occupied_[size_t(index)];
+}
+
+/// A triangle that strays is cut off at the bounds first: samples are spread over all of a triangle.
+void OccupancyGrid::add_inside(const glm::vec3 corners[3], const glm::vec3& normal) {
+    Bounds box;
+    for (int k = 0; k < 3; ++k)
+        box.add(corners[k]);
+    Bounds both = box;
+    both.add(bounds_);
+    if (both.min == bounds_.min && both.max == bounds_.max) return add_triangle(corners, normal);
+    std::vector<glm::dvec3> polygon = clipped({corners[0], corners[1], corners[2]}, bounds_);
+    for (size_t i = 2; i < polygon.size(); ++i) {
+        const glm::vec3 part[3] = {polygon[0], polygon[i - 1], polygon[i]};
+        add_triangle(part, normal);
+    }
 }
 
 void OccupancyGrid::add_triangle(const glm::vec3 corners[3], const glm::vec3& normal) {

@@ -10,7 +10,7 @@ namespace bounce {
 
 class OccupancyGrid {
   public:
-    /// The scene at time 0; `resolution` cells along the longest edge of its bounds.
+    /// The scene at time 0; `resolution` cells along the longest edge of its bounds, which leave out strays.
     OccupancyGrid(const Scene& scene, int resolution);
 
     struct Hit {
@@ -27,6 +27,7 @@ class OccupancyGrid {
 
   private:
     int cell_index(const glm::vec3& p) const; ///< −1 outside
+    void add_inside(const glm::vec3 corners[3], const glm::vec3& normal);
     void add_triangle(const glm::vec3 corners[3], const glm::vec3& normal);
 
     Bounds bounds_;

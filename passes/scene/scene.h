@@ -18,9 +18,9 @@ struct Vertex {
     glm::vec3 position{0};
     float u0 = 0; ///< TEXCOORD_0.x
     glm::vec3 normal{0, 1, 0};
-    float v0 = 0;                     ///< TEXCOORD_0.y
-    glm::vec4 tangent{1, 0, 0, 1};    ///< w = handedness of the bitangent
-    float u1 = 0, v1 = 0;             ///< TEXCOORD_1
+    float v0 = 0;                  ///< TEXCOORD_0.y
+    glm::vec4 tangent{1, 0, 0, 1}; ///< bitangent = cross(normal, tangent)·w, where a mapped green points: along −v
+    float u1 = 0, v1 = 0;          ///< TEXCOORD_1
     uint32_t colour_rg = 0xffffffffu; ///< COLOR_0 as unorm16 pairs (packUnorm2x16), linear; white where absent
     uint32_t colour_ba = 0xffffffffu;
 };
@@ -100,7 +100,8 @@ struct Camera {
     glm::vec3 position{0, 0, 5};
     glm::vec3 target{0, 0, 0};
     glm::vec3 up{0, 1, 0};
-    float vfov = 0.8f; ///< vertical field of view, radians
+    float vfov = 0.8f;    ///< vertical field of view, radians
+    float near_plane = 0; ///< metres along the view: what lies nearer is not seen; 0: everything ahead is
 };
 
 /// A piecewise linear path through keys (position and, where given, a target to look at); frames before the first and
@@ -206,9 +207,9 @@ struct SceneState {
 std::vector<glm::mat4> world_matrices(const Scene& scene, float time);
 SceneState evaluate_scene(const Scene& scene, float time, float previous_time);
 
-/// World bounds of all geometry at `time`.
+/// World bounds of all geometry at `time`, whatever strays in it. For lengths and grids see scene/extent.h.
 Bounds scene_bounds(const Scene& scene, float time);
-/// World bounds over the whole animation (all keys and points between them), as voxel grids need.
+/// World bounds over the whole animation (all keys and points between them).
 Bounds scene_bounds_over_animation(const Scene& scene);
 
 /// What a scene holds, and so what it needs. Passes decline by these (“no emissive material”).
@@ -228,8 +229,10 @@ struct SceneFacts {
     bool animated_lights = false;
     bool environment = false; ///< radiance above zero
     float animation_duration = 0;
-    Bounds bounds; ///< at time 0
-    Bounds bounds_over_animation;
+    Bounds bounds;                ///< at time 0, without strays (scene/extent.h)
+    Bounds bounds_over_animation; ///< without strays: voxel grids, fitted views and lengths in diagonals go by it
+    Bounds whole_bounds;          ///< over the animation, strays included
+    size_t stray_triangles = 0;   ///< that bounds leave out
 };
 
 } // namespace bounce

@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "scene/default_view.h"
+#include "scene/extent.h"
 #include "scene/keyframes.h"
 #include "scene/shot_parts.h"
 
@@ -50,6 +51,7 @@ Camera read_camera(const json& value, ErrorList& errors) {
     camera.target = object.vector("target").value_or(camera.target);
     camera.up = object.vector("up").value_or(camera.up);
     if (auto degrees = object.number("vfov_deg", 0.1, 170)) camera.vfov = glm::radians(*degrees);
+    camera.near_plane = object.number("near", 0, 1e9).value_or(0);
     bool both = object.has("position") && object.has("target");
     if (both && glm::distance(camera.position, camera.target) == 0)
         errors.add("camera.target is the camera's position: it must lie in front of it");
@@ -66,6 +68,7 @@ std::string camera_json(const Camera& camera) {
     out["target"] = vector(camera.target);
     out["up"] = vector(camera.up);
     out["vfov_deg"] = number(glm::degrees(camera.vfov));
+    if (camera.near_plane > 0) out["near"] = number(camera.near_plane);
     return out.dump();
 }
 
@@ -78,7 +81,7 @@ static bool any_emission(const Scene& scene) {
 }
 
 static void add_default_light(Shot& shot, const DefaultView& view) {
-    Bounds bounds = scene_bounds(shot.scene, shot.time);
+    Bounds bounds = scene_extent(shot.scene, shot.time).bounds;
     bool dark_inside = view.kind != ViewKind::outside && view.sky_share < 0.05f && !bounds.empty();
     Light light;
     light.name = "default light";
@@ -112,7 +115,7 @@ void complete_shot(Shot& shot, bool has_camera, bool add_light) {
     if (!has_camera && !state.cameras.empty()) {
         shot.camera = state.cameras.front();
         // A glTF camera has no target; orbiting wants one about where the scene is.
-        Bounds bounds = scene_bounds(shot.scene, shot.time);
+        Bounds bounds = scene_extent(shot.scene, shot.time, {&shot.camera, 1}).bounds;
         glm::vec3 forward = shot.camera.target - shot.camera.position;
         float ahead = bounds.empty() ? 1 : glm::dot(bounds.centre() - shot.camera.position, forward);
         shot.camera.target = shot.camera.position + forward * std::max(ahead, 0.1f * bounds.diagonal());

@@ -9,7 +9,7 @@ namespace bounce {
 /// [{t, position, target}]: t in seconds, increasing; target in all keys or in none. Empty when absent or wrong.
 Path read_path(JsonObject& object, const char* key);
 
-/// {position, target, up, vfov_deg}
+/// {position, target, up, vfov_deg, near}
 Camera read_camera(const nlohmann::json& value, ErrorList& errors);
 
 /// Adds one light of {name, type, position, direction | target, intensity, inner_cone_deg, outer_cone_deg, radius,

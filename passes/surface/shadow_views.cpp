@@ -1,5 +1,7 @@
 #include "surface/shadow_views.h"
 
+#include "scene/near_plane.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -59,7 +61,7 @@ static ShadowView orthographic(glm::vec3 direction, const Bounds& bounds, int re
 
 std::vector<ShadowView> shadow_views(const std::vector<Light>& lights, const Bounds& bounds, int resolution) {
     std::vector<ShadowView> views;
-    float near_plane = 5e-4f * std::max(bounds.diagonal(), 1e-6f);
+    float near_plane = smallest_near_plane(bounds.diagonal());
     for (const Light& light : lights) {
         if (light.type == LightType::directional) {
             views.push_back(orthographic(light.direction, bounds, resolution));

@@ -10,7 +10,8 @@
 namespace bounce {
 
 /// std430 mirror of glsl/lib/shadow.glsl. Depth is larger when nearer: near_plane / distance for perspective views,
-/// 1 − (distance − near_plane) / range for orthographic ones (range > 0); 0 where nothing was drawn.
+/// whose near plane misses nothing (scene/near_plane.h); 1 − distance / range for orthographic ones (range > 0), where
+/// what lies before the view is drawn at 1 and what lies beyond its range is not. 0 where nothing was drawn.
 struct ShadowView {
     glm::mat4 view_projection{1};
     glm::vec3 origin{0};    ///< of the light; orthographic: on the near plane's centre
@@ -24,7 +25,7 @@ struct ShadowView {
 static_assert(sizeof(ShadowView) == 112);
 
 /// The views of all lights, in the order of the lights. `resolution` in texels; directional views are fitted to
-/// `bounds`.
+/// `bounds`; what strays from these is lit there unless something inside of them blocks it.
 std::vector<ShadowView> shadow_views(const std::vector<Light>& lights, const Bounds& bounds, int resolution);
 
 /// How many there are: one of a spot or directional light, six of a point light.

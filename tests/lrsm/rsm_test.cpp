@@ -57,7 +57,8 @@ class Rsm : public SceneGraphTest {
             for (int y = 0; y < maps.size.y; ++y) {
                 for (int x = 0; x < maps.size.x; ++x) {
                     glm::dvec2 plane = (glm::dvec2(x, y) + 0.5) / double(k_resolution) * 2.0 - 1.0;
-                    glm::dvec4 near = inverse * glm::dvec4(plane, 1, 1);
+                    // A metre away: the near plane is too near to tell a direction.
+                    glm::dvec4 near = inverse * glm::dvec4(plane, v.range > 0 ? 1.0 : double(v.near_plane), 1);
                     glm::dvec3 on_ray = glm::dvec3(near) / near.w, origin(v.origin), direction(v.direction);
                     if (v.range > 0)
                         origin = on_ray;
@@ -127,7 +128,7 @@ TEST_F(Rsm, OfASpotReachesToItsOuterCone) {
     ShadowView view = run.read_buffer<ShadowView>("rsm.views").at(0);
     glm::dmat4 inverse = glm::inverse(glm::dmat4(view.view_projection));
     for (glm::dvec2 side : {glm::dvec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
-        glm::dvec4 p = inverse * glm::dvec4(side, 1, 1);
+        glm::dvec4 p = inverse * glm::dvec4(side, double(view.near_plane), 1); // a metre away
         glm::dvec3 direction = glm::normalize(glm::dvec3(p) / p.w - glm::dvec3(view.origin));
         EXPECT_NEAR(std::acos(glm::dot(direction, glm::dvec3(view.direction))), glm::radians(35.0), 1e-4);
     }

@@ -210,6 +210,8 @@ TEST(Nodes, Cameras) {
     SceneState state = evaluate_scene(scene, 0, 0);
     ASSERT_EQ(state.cameras.size(), 2u);
     EXPECT_EQ(state.cameras[0].vfov, 0.5f);
+    EXPECT_EQ(state.cameras[0].near_plane, 0.1f);
+    EXPECT_EQ(state.cameras[1].near_plane, 0); // that of an orthographic camera says nothing about a perspective one
     EXPECT_EQ(state.cameras[0].position, glm::vec3(0, 0, 7));
     EXPECT_NEAR(glm::distance(state.cameras[0].target, glm::vec3(-1, 0, 7)), 0, 1e-6);
     EXPECT_THAT(scene.notes, Contains(HasSubstr("orthographic")));

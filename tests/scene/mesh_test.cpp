@@ -3,6 +3,7 @@
 #include "gltf_builder.h"
 #include "scene/shading_frame.h"
 
+#include <functional>
 #include <gmock/gmock.h>
 
 namespace bounce::testing {
@@ -79,6 +80,64 @@ TEST(Mesh, BadNormalsAreReplaced) {
     EXPECT_THAT(scene.notes, Contains(HasSubstr("2 normals")));
 }
 
+/// Two quads of one vertex buffer without normals, a floor and a wall, as primitives of their own.
+Scene floor_and_wall(bool shared, float normal) {
+    GltfBuilder b;
+    std::vector<float> floor{0, 0, 0, 0, 0, 2, 2, 0, 2, 2, 0, 0}, wall{0, 0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2};
+    auto attributes = [&](const std::vector<float>& positions) {
+        return json{{"POSITION", b.vec3s(positions)},
+                    {"NORMAL", b.vec3s(std::vector<float>(positions.size(), normal))}};
+    };
+    json primitives = json::array();
+    std::vector<float> both = floor;
+    both.insert(both.end(), wall.begin(), wall.end());
+    json of_both = attributes(both);
+    for (uint8_t first : {0, 4}) {
+        uint8_t base = shared ? first : 0;
+        std::vector<uint8_t> order{base, uint8_t(base + 1), uint8_t(base + 2),
+                                   base, uint8_t(base + 2), uint8_t(base + 3)};
+        int indices = b.accessor_of<uint8_t>(order, u8, "SCALAR", 1);
+        primitives.push_back(
+            {{"attributes", shared ? of_both : attributes(first ? wall : floor)}, {"indices", indices}});
+    }
+    b.node({{"mesh", b.add("meshes", {{"primitives", primitives}})}});
+    return b.load();
+}
+
+TEST(Mesh, BadNormalsOfSharedVerticesAreMadeForEachPrimitive) {
+    for (float bad : {0.0f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
+        for (bool shared : {false, true}) {
+            Scene scene = floor_and_wall(shared, bad);
+            ASSERT_EQ(scene.indices.size(), 12u);
+            for (size_t i = 0; i < 12; ++i) {
+                const Vertex& v = scene.vertices[scene.indices[i]];
+                EXPECT_EQ(v.normal, i < 6 ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0)) << shared << " " << bad;
+                EXPECT_NEAR(glm::dot(v.normal, glm::vec3(v.tangent)), 0, 1e-6);
+            }
+            EXPECT_THAT(scene.notes, Contains(HasSubstr("8 normals")));
+        }
+}
+
+TEST(Mesh, GoodNormalsBesideBadOnesAreKept) {
+    GltfBuilder b;
+    json attributes{{"POSITION", b.vec3s({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1})},
+                    {"NORMAL", b.vec3s({0, 0, 0, 0, 0, 1e-20f, 0, 0, 1e25f, 0, 1, 0})}};
+    int front = b.accessor_of<uint8_t>({0, 1, 2}, u8, "SCALAR", 1);
+    int below = b.accessor_of<uint8_t>({0, 3, 1}, u8, "SCALAR", 1);
+    json primitives{{{"attributes", attributes}, {"indices", front}}, {{"attributes", attributes}, {"indices", below}}};
+    b.node({{"mesh", b.add("meshes", {{"primitives", primitives}})}});
+    Scene scene = b.load();
+    auto normal = [&](size_t i) { return scene.vertices[scene.indices[i]].normal; };
+    for (size_t i : {0, 1, 2, 5})
+        EXPECT_EQ(normal(i), glm::vec3(0, 0, 1)) << i; // however short or long
+    EXPECT_EQ(normal(3), glm::vec3(0, 1, 0));          // of the other triangle alone
+    EXPECT_EQ(normal(4), glm::vec3(0, 1, 0));
+}
+
+glm::vec3 bitangent(const Vertex& v) {
+    return glm::cross(v.normal, glm::vec3(v.tangent)) * v.tangent.w;
+}
+
 json textured_material(GltfBuilder& b) {
     b.add("images", {{"uri", "data:image/"
                              "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+"
@@ -109,9 +168,9 @@ TEST(Mesh, TangentsFollowUOnBothSidesOfAMirror) {
         const Vertex& v = scene.vertices[scene.indices[i]];
         bool right = i >= 6;
         EXPECT_NEAR(v.tangent.x, right ? 1 : -1, 1e-6) << i;
-        // bitangent = cross(n, t)·w points along +v, which is +y on both sides.
-        glm::vec3 bitangent = glm::cross(v.normal, glm::vec3(v.tangent)) * v.tangent.w;
-        EXPECT_NEAR(bitangent.y, 1, 1e-6) << i;
+        // bitangent = cross(n, t)·w points where a map's green does: up in the picture, against v, which is −y on both
+        // sides.
+        EXPECT_NEAR(bitangent(v).y, -1, 1e-6) << i;
     }
 }
 
@@ -121,9 +180,108 @@ TEST(Mesh, TangentsFollowTheTransformedCoordinates) {
     for (size_t i = 0; i < 12; ++i) {
         const Vertex& v = scene.vertices[scene.indices[i]];
         EXPECT_NEAR(v.tangent.y, 1, 1e-5) << i;
-        glm::vec3 bitangent = glm::cross(v.normal, glm::vec3(v.tangent)) * v.tangent.w;
-        EXPECT_NEAR(bitangent.x, i < 6 ? 1 : -1, 1e-5) << i; // v' = −u, and u = |x|
+        EXPECT_NEAR(bitangent(v).x, i < 6 ? -1 : 1, 1e-5) << i; // −v' = u, and u = |x|
     }
+}
+
+/// A quad that faces +z, its picture upright: u to the right, v down. `more` attributes.
+Scene upright_quad(const std::function<void(GltfBuilder&, json&)>& change) {
+    GltfBuilder b;
+    b.add("materials", textured_material(b));
+    json attributes{{"POSITION", b.vec3s({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0})},
+                    {"NORMAL", b.vec3s({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1})},
+                    {"TEXCOORD_0", b.vec2s({0, 1, 1, 1, 1, 0, 0, 0})}};
+    change(b, attributes);
+    int indices = b.accessor_of<uint8_t>({0, 1, 2, 0, 2, 3}, u8, "SCALAR", 1);
+    b.node({{"mesh", b.mesh({{"attributes", attributes}, {"indices", indices}, {"material", 0}})}});
+    return b.load();
+}
+
+TEST(Mesh, GeneratedTangentsOfAnUprightPictureAreRightHanded) {
+    for (const Vertex& v : upright_quad([](GltfBuilder&, json&) {}).vertices) {
+        EXPECT_NEAR(glm::distance(v.tangent, glm::vec4(1, 0, 0, 1)), 0, 1e-6);
+        EXPECT_NEAR(bitangent(v).y, 1, 1e-6);
+    }
+}
+
+TEST(Mesh, GeneratedTangentsOfAMirroredPictureAreLeftHanded) {
+    Scene scene = upright_quad([](GltfBuilder& b, json& a) { a["TEXCOORD_0"] = b.vec2s({1, 1, 0, 1, 0, 0, 1, 0}); });
+    for (const Vertex& v : scene.vertices) {
+        EXPECT_NEAR(glm::distance(v.tangent, glm::vec4(-1, 0, 0, -1)), 0, 1e-6);
+        EXPECT_NEAR(bitangent(v).y, 1, 1e-6); // up all the same
+    }
+}
+
+TEST(Mesh, TangentsFollowTinyTextureCoordinates) {
+    std::vector<float> uv{0, 1, 1, 1, 1, 0, 0, 0};
+    for (float& x : uv)
+        x *= 1e-25f;
+    Scene scene = upright_quad([&](GltfBuilder& b, json& a) { a["TEXCOORD_0"] = b.vec2s(uv); });
+    for (const Vertex& v : scene.vertices)
+        EXPECT_NEAR(glm::distance(v.tangent, glm::vec4(1, 0, 0, 1)), 0, 1e-6);
+}
+
+TEST(Mesh, DegenerateTextureCoordinatesGiveAnyFrame) {
+    for (const std::vector<float>& uv : {std::vector<float>(8, 0.25f), {0, 0, 1, 1, 1, 1, 0, 0}}) {
+        Scene scene = upright_quad([&](GltfBuilder& b, json& a) { a["TEXCOORD_0"] = b.vec2s(uv); });
+        for (const Vertex& v : scene.vertices) {
+            EXPECT_NEAR(glm::length(glm::vec3(v.tangent)), 1, 1e-6);
+            EXPECT_EQ(v.tangent.z, 0);
+            EXPECT_EQ(std::abs(v.tangent.w), 1);
+        }
+    }
+}
+
+TEST(Mesh, TangentsThatLackSomethingAreMadeFromTheCoordinates) {
+    float nan = std::numeric_limits<float>::quiet_NaN();
+    // One vertex each: no handedness, none a number, no direction, no number; the rest is authored and kept.
+    for (const glm::vec4& bad : {glm::vec4(0, 1, 0, 0), glm::vec4(0, 1, 0, nan), glm::vec4(0, 0, 0, -1),
+                                 glm::vec4(nan, 0, 0, 1), glm::vec4(0, 0, 0, 0)}) {
+        Scene scene = upright_quad([&](GltfBuilder& b, json& a) {
+            std::vector<float> tangents{0, -1, 0, -1, 0, -1, 0, -1, 0, -1, 0, -1, bad.x, bad.y, bad.z, bad.w};
+            a["TANGENT"] = b.vec4s(tangents);
+        });
+        ASSERT_EQ(scene.vertices.size(), 4u);
+        for (size_t i = 0; i < 3; ++i)
+            EXPECT_EQ(scene.vertices[i].tangent, glm::vec4(0, -1, 0, -1));
+        bool kept = bad.y == 1; // a good direction stays, and gets the coordinates' handedness
+        EXPECT_NEAR(glm::distance(scene.vertices[3].tangent, kept ? glm::vec4(0, 1, 0, 1) : glm::vec4(1, 0, 0, 1)), 0,
+                    1e-6);
+        EXPECT_THAT(scene.notes, Contains(HasSubstr("1 tangents")));
+    }
+}
+
+TEST(Mesh, TangentsAreSmoothOverVerticesThatAreAlike) {
+    // A strip bent at x = 0 with a smooth normal there, once with shared vertices and once without indices.
+    std::vector<float> p[6] = {{-1, 0, -1}, {0, 0, 0}, {1, 0, -1}, {-1, 1, -1}, {0, 1, 0}, {1, 1, -1}};
+    float s = std::sqrt(0.5f);
+    std::vector<float> n[3] = {{-s, 0, s}, {0, 0, 1}, {s, 0, s}};
+    std::vector<float> uv[6] = {{0, 1}, {0.5f, 1}, {1, 1}, {0, 0}, {0.5f, 0}, {1, 0}};
+    std::vector<uint8_t> order{0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4};
+    auto build = [&](bool indexed) {
+        GltfBuilder b;
+        b.add("materials", textured_material(b));
+        std::vector<float> positions, normals, coordinates;
+        for (size_t k = 0; k < (indexed ? 6u : 12u); ++k) {
+            size_t i = indexed ? k : order[k];
+            positions.insert(positions.end(), p[i].begin(), p[i].end());
+            normals.insert(normals.end(), n[i % 3].begin(), n[i % 3].end());
+            coordinates.insert(coordinates.end(), uv[i].begin(), uv[i].end());
+        }
+        json primitive{
+            {"attributes",
+             {{"POSITION", b.vec3s(positions)}, {"NORMAL", b.vec3s(normals)}, {"TEXCOORD_0", b.vec2s(coordinates)}}},
+            {"material", 0}};
+        if (indexed) primitive["indices"] = b.accessor_of<uint8_t>(order, u8, "SCALAR", 1);
+        b.node({{"mesh", b.mesh(primitive)}});
+        return b.load();
+    };
+    Scene indexed = build(true), loose = build(false);
+    for (size_t i = 0; i < 12; ++i) {
+        const Vertex &a = indexed.vertices[indexed.indices[i]], &b = loose.vertices[loose.indices[i]];
+        EXPECT_NEAR(glm::distance(a.tangent, b.tangent), 0, 1e-6) << i;
+    }
+    EXPECT_NEAR(glm::distance(indexed.vertices[1].tangent, glm::vec4(1, 0, 0, 1)), 0, 1e-6); // over the bend
 }
 
 TEST(Mesh, AuthoredTangentsAreKept) {

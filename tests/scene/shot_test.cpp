@@ -260,6 +260,7 @@ TEST_F(ShotTest, CameraJsonReadsBackExactly) {
     camera.target = {1.0f / 3, 100000.7f, 0};
     camera.up = {0, 0, 1};
     camera.vfov = glm::radians(47.3f);
+    camera.near_plane = 0.3f;
     std::string text = camera_json(camera);
     EXPECT_THAT(text, HasSubstr("0.1,"));
     Shot shot = load({{"scene", "triangle.gltf"}, {"camera", json::parse(text)}});
@@ -267,6 +268,7 @@ TEST_F(ShotTest, CameraJsonReadsBackExactly) {
     EXPECT_EQ(shot.camera.target, camera.target);
     EXPECT_EQ(shot.camera.up, camera.up);
     EXPECT_FLOAT_EQ(shot.camera.vfov, camera.vfov);
+    EXPECT_EQ(shot.camera.near_plane, camera.near_plane);
 }
 
 TEST_F(ShotTest, PlainScenesGetALightAndAView) {

@@ -15,7 +15,7 @@ inline const HeadlessContext& gpu_context() {
     return context;
 }
 
-class GpuTest : public testing::Test {
+class GpuTest : public ::testing::Test {
   protected:
     void SetUp() override {
         gpu_context();
