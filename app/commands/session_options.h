@@ -13,11 +13,12 @@ struct SessionArguments {
     std::vector<std::string> sets;
     std::vector<std::string> enabled, disabled;
     std::string size;
+    std::string material_model;
     int device = -1;
     bool check_nan = false;
 
     void add_to(CLI::App& command, bool shot_required);
-    /// Throws Error for a malformed --set or --size.
+    /// Throws Error for a malformed --set, --size or --material-model.
     SessionOptions options() const;
 };
 

@@ -1,11 +1,12 @@
 // Reflective shadow map (Dachsbacher & Stamminger 2005; LRSM, Table 1): for each texel the light that a diffuse surface
-// sends on, ρ·L_d·⟨n·l⟩/π with L_d the irradiance at normal incidence, its normal, and ⟨n·l⟩. Depth is the depth buffer.
+// sends on, ρ·L_d·⟨n·l⟩/π with L_d the irradiance at normal incidence, its normal, and ⟨n·l⟩. Depth is the depth buffer. ρ is
+// the diffuse lobe's albedo for light from l: the lobe's reciprocity makes it what all viewers together see.
 #define SCENE_MATERIALS
 #define SCENE_LIGHTS
 #include "lib/frame.glsl"
 #include "lib/material_raster.glsl"
 #include "lib/normal_map.glsl"
-#include "lib/brdf.glsl"
+#include "lib/material_model.glsl"
 
 uniform int light_index;
 
@@ -26,7 +27,7 @@ void main() {
     SurfaceUv uv = surface_uv(surface.uv);
     vec4 base = sample_base_colour(material, uv, surface.colour);
     vec3 mapped = sample_slot(material_normal, material.normal_texture, uv).xyz;
-    float metallic = material.metallic * sample_slot(material_metallic_roughness, material.metallic_roughness_texture, uv).b;
+    vec2 rm = vec2(material.roughness, material.metallic) * sample_slot(material_metallic_roughness, material.metallic_roughness_texture, uv).gb;
     vec3 face = cross(dFdx(surface.position), dFdy(surface.position));
     if (alpha_rejects(material, base.a)) discard;
 
@@ -37,6 +38,8 @@ void main() {
     face = face_length > 0.0 ? face / face_length : authored;
     vec3 n = turn_toward_viewer(shading_normal(material, authored, surface.tangent, mapped), face, l);
     float cosine = max(dot(n, l), 0.0);
-    radiance = vec4(min(brdf_diffuse(base.rgb, clamp(metallic, 0.0, 1.0)) * irradiance * cosine, vec3(65504.0)), cosine);
+    rm = clamp(rm, 0.0, 1.0);
+    vec3 rho = diffuse_albedo(base.rgb, rm.y, rm.x, cosine);
+    radiance = vec4(min(rho / k_pi * irradiance * cosine, vec3(65504.0)), cosine);
     normal = vec4(n, 1.0);
 }

@@ -1,6 +1,7 @@
 #include "graph/gpu_scene.h"
 
 #include "core/error.h"
+#include "scene/lobe_albedo.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,6 +48,10 @@ GpuScene::GpuScene(const Scene& scene, const Environment& environment)
         glTextureSubImage2D(environment_.id(), 0, 0, 0, map.width, map.height, format, GL_FLOAT, map.pixels.data());
         glTextureParameteri(environment_.id(), GL_TEXTURE_WRAP_S, GL_REPEAT);
     }
+    constexpr int k_table = LobeAlbedoTable::k_size;
+    lobe_albedo_ = GpuTexture({TextureKind::texture_2d, GL_RG32F, {k_table, k_table, 1}, 1}, "scene.lobe_albedo");
+    glTextureSubImage2D(lobe_albedo_.id(), 0, 0, 0, k_table, k_table, GL_RG, GL_FLOAT,
+                        lobe_albedo_table().entries.data());
     upload_textures(scene);
     update_materials(scene.materials);
 }
@@ -152,7 +157,7 @@ uint64_t GpuScene::geometry_bytes() const {
 }
 
 uint64_t GpuScene::texture_bytes() const {
-    uint64_t bytes = bounce::texture_bytes(environment_.desc());
+    uint64_t bytes = bounce::texture_bytes(environment_.desc()) + bounce::texture_bytes(lobe_albedo_.desc());
     for (const Array& array : arrays_)
         bytes += bounce::texture_bytes(array.texture.desc());
     return bytes;

@@ -1,6 +1,7 @@
 #include "reference/integrator.h"
 
 #include "scene/camera_ray.h"
+#include "scene/lobe_albedo.h"
 
 #include <limits>
 
@@ -23,17 +24,29 @@ enum Kind { k_punctual, k_emitted, k_environment };
 struct Integrator::Lobes {
     glm::vec3 n, v;
     glm::vec3 geometric;
-    glm::vec3 diffuse; ///< ρ/π
+    glm::vec3 lambert; ///< ρ/π
     glm::vec3 f0;
-    float nv, alpha;
+    float nv, alpha, roughness;
     bool glossy;
+    MaterialModel model;
+    glm::vec3 limit{1}; ///< of the diffuse lobe, seen from v
     Basis basis;
 
-    Lobes(const Surface& surface, const glm::vec3& to_viewer, bool diffuse_only)
+    Lobes(const Surface& surface, const glm::vec3& to_viewer, const TraceScene& scene)
         : n(surface.shading), v(to_viewer), geometric(surface.geometric),
-          diffuse(brdf_diffuse(surface.base_colour, surface.metallic)),
+          lambert(brdf_diffuse(surface.base_colour, surface.metallic)),
           f0(brdf_f0(surface.base_colour, surface.metallic)), nv(glm::dot(n, v)), alpha(brdf_alpha(surface.roughness)),
-          glossy(!diffuse_only && nv > 0), basis(n) {}
+          roughness(surface.roughness), glossy(!scene.diffuse_only && nv > 0), model(scene.material_model), basis(n) {
+        if (model == MaterialModel::gltf && nv > 0) limit = diffuse_limit(k_pi * lambert, f0, roughness, nv);
+    }
+
+    /// The diffuse lobe toward l, nl = n·l above 0.
+    glm::vec3 diffuse(const glm::vec3& l, float nl) const {
+        if (model == MaterialModel::plain) return lambert;
+        const glm::vec3 weighted = lambert * fresnel_diffuse_weight(v, glm::normalize(v + l));
+        if (model == MaterialModel::appendix_b || nv <= 0) return weighted;
+        return weighted * glm::min(limit, diffuse_limit(k_pi * lambert, f0, roughness, nl));
+    }
 
     struct Gloss {
         glm::vec3 value{0};
@@ -60,11 +73,11 @@ struct Integrator::Lobes {
 };
 
 TraceScene::TraceScene(const Shot& shot, const ShotState& state, const ReferenceSettings& s)
-    : geometry(shot, state.scene, s.diffuse_only || shot.diffuse_only), emitters(geometry),
-      environment(shot.environment), lights(state.scene.lights), camera(state.camera),
+    : geometry(shot, state.scene, shot.diffuse_only), emitters(geometry), environment(shot.environment),
+      lights(state.scene.lights), camera(state.camera),
       camera_basis(bounce::camera_basis(camera.position, camera.target, camera.up)),
       tan_half_vfov(std::tan(0.5f * camera.vfov)), size(float(shot.width), float(shot.height)), settings(s),
-      diffuse_only(s.diffuse_only || shot.diffuse_only),
+      diffuse_only(s.diffuse_only || shot.diffuse_only), material_model(shot.effective_model()),
       occlusion_distance(s.occlusion_distance * geometry.bounds().diagonal()) {}
 
 float TraceScene::near_visibility(float distance) const {
@@ -195,19 +208,19 @@ bool Integrator::extend(Path& path, const Surface& surface) {
     const glm::vec2 u = path.sampler.next_pair(), chances = path.sampler.next_pair();
     const float choice = chances.x, survival = chances.y;
 
-    const Lobes lobes(surface, -path.direction, scene_.diffuse_only);
+    const Lobes lobes(surface, -path.direction, scene_);
     float gloss_share = 0;
     if (lobes.glossy) {
         // Schlick at the viewing angle is near enough for a choice between lobes.
         const float m = 1 - std::min(lobes.nv, 1.0f), m2 = m * m;
         const float specular = luminance(lobes.f0 + (1.0f - lobes.f0) * (m2 * m2 * m));
-        const float diffuse = luminance(lobes.diffuse) * k_pi;
+        const float diffuse = luminance(lobes.lambert) * k_pi;
         gloss_share = diffuse > 0 ? std::clamp(specular / (specular + diffuse), 0.1f, 0.9f) : 1.0f;
     }
     auto evaluate = [&](const glm::vec3& l, float nl, float& density) {
         const Lobes::Gloss gloss = lobes.gloss(l, nl);
         density = gloss_share * gloss.density + (1 - gloss_share) * nl / k_pi;
-        return lobes.diffuse + gloss.value;
+        return lobes.diffuse(l, nl) + gloss.value;
     };
     sample_lights(
         surface, path.sampler, k_all_lights, [&](Kind, const glm::vec3& l, const glm::vec3& irradiance, float density) {
@@ -299,7 +312,7 @@ void Integrator::begin(int x, int y, PixelSampler& sampler, PixelSample& out, st
     }
     const glm::vec2 u_diffuse = sampler.next_pair(), u_gloss = sampler.next_pair();
     const Surface surface = scene_.geometry.surface(first, camera_direction);
-    const Lobes lobes(surface, -camera_direction, scene_.diffuse_only);
+    const Lobes lobes(surface, -camera_direction, scene_);
     const glm::vec3 origin = surface.origin();
     const bool later_orders = scene_.settings.bounces != 0;
     add(emission, surface.emission);
@@ -311,17 +324,14 @@ void Integrator::begin(int x, int y, PixelSampler& sampler, PixelSample& out, st
         if (later_orders) scene_.geometry.prefetch_indices(hit);
         open = hit.valid() ? 0.0f : 1.0f;
         open_near = hit.valid() ? scene_.near_visibility(hit.distance) : 1.0f;
+        const glm::vec3 weight = lobes.diffuse(l, nl) * k_pi;
         meet_lights(origin, l, hit, nl / k_pi, k_all_lights_at_camera, [&](Kind kind, const glm::vec3& met) {
             add_irradiance(kind, k_pi * met);
-            add_first(kind, lobes.diffuse * (k_pi * met));
+            add_first(kind, weight * met);
         });
         if (later_orders && hit.valid()) {
-            paths.push_back({.sampler = sampler,
-                             .block = 1,
-                             .hit = hit,
-                             .direction = l,
-                             .out = &out,
-                             .weight = lobes.diffuse * k_pi});
+            paths.push_back(
+                {.sampler = sampler, .block = 1, .hit = hit, .direction = l, .out = &out, .weight = weight});
         }
     }
     if (lobes.glossy) {
@@ -348,7 +358,7 @@ void Integrator::begin(int x, int y, PixelSampler& sampler, PixelSample& out, st
                       const float gloss_weight = density > 0 ? mis_weight(density, gloss.density) : 1.0f;
                       const glm::vec3 e = irradiance * (nl * diffuse_weight);
                       add_irradiance(kind, e);
-                      add_first(kind, lobes.diffuse * e + gloss.value * irradiance * (nl * gloss_weight));
+                      add_first(kind, lobes.diffuse(to_light, nl) * e + gloss.value * irradiance * (nl * gloss_weight));
                   });
 }
 

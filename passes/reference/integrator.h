@@ -29,7 +29,8 @@ struct TraceScene {
     float tan_half_vfov;
     glm::vec2 size;
     ReferenceSettings settings;
-    bool diffuse_only;
+    bool diffuse_only; ///< no microfacet lobe
+    MaterialModel material_model;
     float occlusion_distance; ///< metres
 
     /// The visibility that out.ambient_occlusion_dmax takes of an occluder at `distance`.

@@ -123,10 +123,11 @@ TEST(Brdf, WhiteFurnaceIsReported) {
     EXPECT_GT(lobe_albedo(1.0f, 0.1f, glm::vec3(1), 1), 0.99);
 }
 
-// The tracer against quadrature: a rough metal floor under a point light and a uniform sky.
+// The tracer against quadrature of the plain sum: a rough metal floor under a point light and a uniform sky.
 TEST(Material, GlossyFloorMatchesTheBrdf) {
     SceneMaker maker;
     maker.shot.diffuse_only = false;
+    maker.shot.material_model = MaterialModel::plain;
     const glm::vec3 base(0.8f, 0.5f, 0.2f);
     maker.quad({-50, 0, -50}, {0, 0, 100}, {100, 0, 0}, maker.material(base, glm::vec3(0), 0.7f, 0.5f));
     maker.camera({0, 4, 3}, {0, 0, 0}, 0.05f);
