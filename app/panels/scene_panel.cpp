@@ -48,8 +48,8 @@ void draw_facts(const Session& session) {
     const GpuScene& gpu = session.gpu_scene();
     fact("triangles", "%zu in %zu draws", facts.triangles, facts.instances);
     fact("vertices", "%zu", facts.vertices);
-    fact("materials", "%zu: %zu glossy, %zu emissive, %zu masked", facts.materials, facts.glossy_materials,
-         facts.emissive_materials, facts.alpha_tested_materials);
+    fact("materials", "%zu: %zu glossy, %zu emissive, %zu masked, %zu blended", facts.materials, facts.glossy_materials,
+         facts.emissive_materials, facts.alpha_tested_materials, facts.blended_materials);
     if (facts.textures == 0)
         fact("textures", "none");
     else

@@ -9,6 +9,7 @@
 #include "lib/material_model.glsl"
 
 uniform int light_index;
+uniform int view_index; // which of rsm_views
 
 in Surface {
     vec3 position;
@@ -18,6 +19,7 @@ in Surface {
     vec4 colour;
 } surface;
 flat in uint surface_material;
+flat in uint surface_draw;
 
 layout(location = 0) out vec4 radiance; // a = ⟨n·l⟩
 layout(location = 1) out vec4 normal;   // world, toward the light; a = 1 where there is a surface
@@ -29,7 +31,7 @@ void main() {
     vec3 mapped = sample_slot(material_normal, material.normal_texture, uv).xyz;
     vec2 rm = vec2(material.roughness, material.metallic) * sample_slot(material_metallic_roughness, material.metallic_roughness_texture, uv).gb;
     vec3 face = cross(dFdx(surface.position), dFdy(surface.position));
-    if (alpha_rejects(material, base.a)) discard;
+    if (!surface_is_there(material, base.a, texel_place(ivec2(gl_FragCoord.xy), uint(view_index), surface_draw, uint(gl_PrimitiveID)))) discard;
 
     vec3 l;
     vec3 irradiance = light_irradiance(lights[light_index], surface.position, l);

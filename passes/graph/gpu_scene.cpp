@@ -87,7 +87,9 @@ void GpuScene::update_materials(const std::vector<Material>& materials) {
         GpuMaterial out;
         out.base_colour = m.base_colour;
         out.emission = m.emission;
-        out.alpha_cutoff = m.alpha_mask ? m.alpha_cutoff : -1.0f;
+        out.alpha_cutoff = m.alpha_mode == AlphaMode::mask    ? m.alpha_cutoff
+                           : m.alpha_mode == AlphaMode::blend ? -2.0f
+                                                              : -1.0f;
         out.metallic = m.metallic;
         out.roughness = m.roughness;
         out.normal_scale = m.normal_scale;

@@ -50,7 +50,7 @@ static void add_material(ContentHash& hash, const Material& m) {
     hash.add_value(m.roughness);
     hash.add_value(m.emission);
     hash.add_value(m.normal_scale);
-    hash.add_value(int(m.alpha_mask));
+    hash.add_value(int(m.alpha_mode));
     hash.add_value(m.alpha_cutoff);
     for (const TextureSlot* slot :
          {&m.base_colour_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emission_texture}) {

@@ -18,6 +18,9 @@ constexpr size_t k_all_lights = 4;
 /// Which part a light's first scattering belongs to.
 enum Kind { k_punctual, k_emitted, k_environment };
 
+/// Rays that may be traced at one point of a sampler's sequence; the lights' come last.
+enum CoverageRay : uint32_t { k_camera_ray, k_diffuse_ray, k_gloss_ray, k_emitter_ray, k_sky_ray, k_light_ray };
+
 } // namespace
 
 /// The surface's two lobes as seen from one direction, ready to be evaluated and drawn from.
@@ -90,16 +93,16 @@ bool TraceScene::anything_to_meet() const {
     return environment.present() || !emitters.empty() || lights.any_soft();
 }
 
-Hit Integrator::trace(const glm::vec3& origin, const glm::vec3& direction) {
+Hit Integrator::trace(const glm::vec3& origin, const glm::vec3& direction, uint32_t coverage_seed) {
     ++rays_;
     if (record_) record_->push_back({origin, k_infinity, direction, false});
-    return scene_.geometry.intersect(origin, direction, k_infinity);
+    return scene_.geometry.intersect(origin, direction, k_infinity, coverage_seed);
 }
 
-bool Integrator::blocked(const glm::vec3& origin, const glm::vec3& to_end, float length) {
+bool Integrator::blocked(const glm::vec3& origin, const glm::vec3& to_end, float length, uint32_t coverage_seed) {
     ++rays_;
     if (record_) record_->push_back({origin, length, to_end, true});
-    return scene_.geometry.occluded(origin, to_end, length);
+    return scene_.geometry.occluded(origin, to_end, length, coverage_seed);
 }
 
 float Integrator::light_probability(size_t i, const glm::vec3& x) const {
@@ -122,7 +125,7 @@ void Integrator::sample_lights(const Surface& surface, PixelSampler& sampler, si
         if (s.irradiance == glm::vec3(0)) return;
         // A little short of the light, in case it touches a surface.
         const float length = s.distance * (1 - 1e-6f);
-        if (blocked(origin, s.direction, length)) return;
+        if (blocked(origin, s.direction, length, coverage_seed(sampler, k_light_ray + uint32_t(i)))) return;
         add(k_punctual, s.direction, s.irradiance / probability, s.density * probability);
     };
     if (lights.size() <= most_lights) {
@@ -146,7 +149,7 @@ void Integrator::sample_lights(const Surface& surface, PixelSampler& sampler, si
         const Emitters::Sample s = scene_.emitters.sample(scene_.geometry, origin, choice, sampler.next_pair());
         if (s.density > 0 && s.radiance != glm::vec3(0) && glm::dot(s.direction, surface.geometric) > 0 &&
             glm::dot(s.direction, surface.shading) > 0) {
-            if (!blocked(origin, s.position - origin, 1))
+            if (!blocked(origin, s.position - origin, 1, coverage_seed(sampler, k_emitter_ray)))
                 add(k_emitted, s.direction, s.radiance / s.density, s.density);
         }
     }
@@ -156,7 +159,7 @@ void Integrator::sample_lights(const Surface& surface, PixelSampler& sampler, si
         const glm::vec3 l = scene_.environment.sample(choice, sampler.next_pair(), density);
         if (glm::dot(l, surface.geometric) > 0 && glm::dot(l, surface.shading) > 0) {
             const glm::vec3 radiance = scene_.environment.radiance(l);
-            if (radiance != glm::vec3(0) && !blocked(origin, l, k_infinity)) {
+            if (radiance != glm::vec3(0) && !blocked(origin, l, k_infinity, coverage_seed(sampler, k_sky_ray))) {
                 add(k_environment, l, radiance / density, density);
             }
         }
@@ -246,7 +249,7 @@ bool Integrator::extend(Path& path, const Surface& surface) {
         path.throughput /= probability;
     }
     const glm::vec3 origin = surface.origin();
-    path.hit = trace(origin, l);
+    path.hit = trace(origin, l, coverage_seed(path.sampler, k_diffuse_ray));
     scene_.geometry.prefetch_indices(path.hit);
     meet_lights(origin, l, path.hit, density, k_all_lights,
                 [&](Kind, const glm::vec3& met) { path.radiance += path.throughput * met; });
@@ -304,7 +307,7 @@ void Integrator::begin(int x, int y, PixelSampler& sampler, PixelSample& out, st
     const glm::vec2 jitter = sampler.next_pair();
     const glm::vec3 camera_direction =
         camera_ray(scene_.camera_basis, scene_.tan_half_vfov, scene_.size, glm::vec2(x, y) + jitter);
-    const Hit first = trace(scene_.camera.position, camera_direction);
+    const Hit first = trace(scene_.camera.position, camera_direction, coverage_seed(sampler, k_camera_ray));
     if (!first.valid()) {
         if (scene_.environment.present()) add(emission, scene_.environment.radiance(camera_direction));
         open = open_near = 1;
@@ -320,7 +323,7 @@ void Integrator::begin(int x, int y, PixelSampler& sampler, PixelSample& out, st
     // The diffuse path also measures ambient occlusion: its first ray has the density cosθ/π.
     const glm::vec3 l = lobes.draw_diffuse(u_diffuse);
     if (const float nl = glm::dot(lobes.n, l); nl > 0 && lobes.above(l)) {
-        const Hit hit = trace(origin, l);
+        const Hit hit = trace(origin, l, coverage_seed(sampler, k_diffuse_ray));
         if (later_orders) scene_.geometry.prefetch_indices(hit);
         open = hit.valid() ? 0.0f : 1.0f;
         open_near = hit.valid() ? scene_.near_visibility(hit.distance) : 1.0f;
@@ -340,7 +343,7 @@ void Integrator::begin(int x, int y, PixelSampler& sampler, PixelSample& out, st
         const Lobes::Gloss gloss = lobes.gloss(g, nl);
         if (nl > 0 && lobes.above(g) && gloss.density > 0 && (later_orders || scene_.anything_to_meet())) {
             const glm::vec3 weight = gloss.value * (nl / gloss.density);
-            const Hit hit = trace(origin, g);
+            const Hit hit = trace(origin, g, coverage_seed(sampler, k_gloss_ray));
             if (later_orders) scene_.geometry.prefetch_indices(hit);
             meet_lights(origin, g, hit, gloss.density, k_all_lights_at_camera,
                         [&](Kind kind, const glm::vec3& met) { add_first(kind, weight * met); });

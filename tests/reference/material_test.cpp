@@ -253,7 +253,7 @@ TEST(Material, TexturesAreDecodedFilteredAndPlaced) {
 // A sheet above the floor whose left half is cut out by its alpha: seen through, lit through, and open to the sky.
 TEST(Material, AlphaTestedTexelsAreNotThere) {
     SceneMaker maker = textured_floor({255, 255, 255, 0, 255, 255, 255, 255}, false, true);
-    maker.shot.scene.materials[0].alpha_mask = true;
+    maker.shot.scene.materials[0].alpha_mode = AlphaMode::mask;
     maker.quad({-5, -1, -5}, {10, 0, 0}, {0, 0, 10}, maker.material(glm::vec3(0.5f)));
     ReferenceRender render(maker.shot, {});
     render.render_to(16);
