@@ -26,6 +26,7 @@ void apply_options(GraphModel& model, const SessionOptions& options) {
 
 Session::Session(SessionOptions options) : options_(std::move(options)), timer_mode_(probe_timer_mode()) {
     shot_ = std::make_unique<Shot>(load_shot(options_.shot));
+    if (options_.material_model) shot_->material_model = *options_.material_model;
     size_ = options_.size.value_or(glm::ivec2(shot_->width, shot_->height));
     graph_ = std::make_unique<Graph>(find_graph(options_.graph), timer_mode_);
     graph_->check_nan = graph_->check_nan || options_.check_nan;
@@ -55,6 +56,7 @@ void Session::open_shot(const std::string& name) {
         throw;
     }
     options_.shot = name;
+    options_.material_model.reset();
     camera_.reset();
     frame_ = 0;
     rendered_frame_ = -1;
@@ -123,6 +125,7 @@ void Session::render(bool whole) {
     c.light_count = int(gpu_scene_->light_list().size());
     c.shadow_view_count = gpu_scene_->shadow_view_count();
     c.diffuse_only = shot_->diffuse_only ? 1 : 0;
+    c.material_model = int(shot_->material_model);
     c.normal_maps = shot_->normal_maps ? 1 : 0;
 
     FrameInputs inputs{gpu_scene_.get(), &facts_, c};
@@ -160,6 +163,8 @@ std::vector<std::pair<std::string, std::string>> Session::changed_parameters(Par
 std::string Session::command_line(const std::string& output) const {
     std::string text =
         fmt::format("bounce render {} --graph {} --size {}x{}", options_.shot, options_.graph, size_.x, size_.y);
+    if (options_.material_model)
+        text += fmt::format(" --material-model {}", k_material_models[size_t(*options_.material_model)]);
     if (frame_ > 0) text += fmt::format(" --frames {}", frame_ + 1);
     // What the graph file sets is part of the graph; values put back to their default by a person are not.
     auto add = [&](const std::string& id, const ParameterSet& set) {

@@ -22,6 +22,7 @@ struct SessionOptions {
     std::vector<std::pair<std::string, bool>> switches;    ///< pass → on or off, from --enable and --disable
     std::string resource;                                  ///< the passes that make it are switched on
     std::optional<glm::ivec2> size;                        ///< instead of the shot's
+    std::optional<MaterialModel> material_model;           ///< instead of the shot's
     bool check_nan = false;
 };
 

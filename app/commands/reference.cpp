@@ -23,7 +23,7 @@ namespace bounce {
 namespace {
 
 struct ReferenceArguments {
-    std::string shot, output, resource, size;
+    std::string shot, output, resource, size, material_model;
     std::string bounces = "unlimited", occlusion_falloff = "none";
     int samples = 0, frame = 0;
     double noise = 0;
@@ -159,6 +159,7 @@ int reference(ReferenceArguments arguments) {
     arguments.settings.occlusion_falloff = occlusion_falloff(arguments.occlusion_falloff);
     Shot shot = load_shot(arguments.shot);
     apply_size(arguments.size, shot);
+    if (!arguments.material_model.empty()) shot.material_model = material_model_named(arguments.material_model);
 
     ReferenceGoal goal;
     goal.samples = arguments.samples;
@@ -220,7 +221,9 @@ void add_reference_command(CLI::App& app, CommandFunction& chosen) {
     command->add_option("--noise", a->noise, "stop at this relative noise (0.01 when neither is given)")
         ->check(CLI::Range(1e-6, 10.0))
         ->excludes(samples);
-    command->add_flag("--diffuse-only", a->settings.diffuse_only, "make every material Lambert");
+    command->add_flag("--diffuse-only", a->settings.diffuse_only,
+                      "leave out the microfacet lobe: Lambert, if the model is plain");
+    command->add_option("--material-model", a->material_model, "plain, gltf or appendix_b instead of the shot's");
     command->add_option("--resource", a->resource,
                         "write this one part (out.indirect_diffuse …); --noise then means its noise");
     command->add_option("--size", a->size, "WxH instead of the shot's size");

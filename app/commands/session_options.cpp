@@ -22,6 +22,7 @@ void SessionArguments::add_settings_to(CLI::App& command) {
         ->allow_extra_args(false);
     command.add_option("--disable", disabled, "switch off a pass (repeatable)")->allow_extra_args(false);
     command.add_option("--size", size, "WxH instead of the shot's size");
+    command.add_option("--material-model", material_model, "plain, gltf or appendix_b instead of the shot's");
     command.add_option("--device", device, "which EGL device (see --list-devices)");
     command.add_flag("--check-nan", check_nan, "look for values that are not finite after every pass");
 }
@@ -31,6 +32,7 @@ SessionOptions SessionArguments::options() const {
     out.shot = shot;
     out.graph = graph;
     out.check_nan = check_nan;
+    if (!material_model.empty()) out.material_model = material_model_named(material_model);
     for (const std::string& set : sets) {
         size_t equals = set.find('=');
         if (equals == std::string::npos || equals == 0) {

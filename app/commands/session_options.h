@@ -13,13 +13,14 @@ struct SessionArguments {
     std::vector<std::string> sets;
     std::vector<std::string> enabled, disabled;
     std::string size;
+    std::string material_model;
     int device = -1;
     bool check_nan = false;
 
     void add_to(CLI::App& command, bool shot_required);
     /// All but the shot and the graph, for commands that take several.
     void add_settings_to(CLI::App& command);
-    /// Throws Error for a malformed --set or --size.
+    /// Throws Error for a malformed --set, --size or --material-model.
     SessionOptions options() const;
 };
 

@@ -49,8 +49,8 @@ void draw_facts(const Session& session) {
     const GpuScene& gpu = session.gpu_scene();
     fact("triangles", "%zu in %zu draws", facts.triangles, facts.instances);
     fact("vertices", "%zu", facts.vertices);
-    fact("materials", "%zu: %zu glossy, %zu emissive, %zu masked", facts.materials, facts.glossy_materials,
-         facts.emissive_materials, facts.alpha_tested_materials);
+    fact("materials", "%zu: %zu glossy, %zu emissive, %zu masked, %zu blended", facts.materials, facts.glossy_materials,
+         facts.emissive_materials, facts.alpha_tested_materials, facts.blended_materials);
     if (facts.textures == 0)
         fact("textures", "none");
     else
@@ -125,6 +125,18 @@ void draw_surroundings(PanelContext& context) {
     }
     ImGui::EndDisabled();
     help(any ? "Normals from textures, or those of the vertices." : "No material of this scene has a normal map.");
+    ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 8);
+    ImGui::BeginDisabled(diffuse_only);
+    int model = int(shot.material_model);
+    if (ImGui::Combo("material model", &model, "plain\0gltf\0appendix_b\0")) {
+        edit(context, "material model", int(shot.material_model), model, [&session, changed](int value) {
+            session.shot().material_model = MaterialModel(value);
+            changed();
+        });
+    }
+    note_widget("scene.material_model");
+    ImGui::EndDisabled();
+    help("plain: Lambert + lobe. gltf: appendix B, never brighter than what comes in. appendix_b: without that limit.");
 }
 
 } // namespace

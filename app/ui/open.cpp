@@ -23,6 +23,7 @@ SceneBaseline baseline_of(const Session& session) {
     baseline.environment = shot.environment.radiance;
     baseline.diffuse_only = shot.diffuse_only;
     baseline.normal_maps = shot.normal_maps;
+    baseline.material_model = shot.material_model;
     return baseline;
 }
 

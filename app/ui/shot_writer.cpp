@@ -159,6 +159,8 @@ std::string shot_text(const Session& session, const SceneBaseline& opened, const
     bool environment_edited = shot.environment.radiance != opened.environment;
     if (environment_edited || (plain_scene && shot.environment.present())) set_environment(root, shot.environment);
     if (shot.diffuse_only || root.contains("diffuse_only")) root["diffuse_only"] = shot.diffuse_only;
+    if (shot.material_model != MaterialModel::gltf || root.contains("material_model"))
+        root["material_model"] = std::string(k_material_models[size_t(shot.material_model)]);
     if (!shot.normal_maps || root.contains("normal_maps")) root["normal_maps"] = shot.normal_maps;
     return root.dump(2) + "\n";
 }
@@ -167,7 +169,7 @@ bool differs_from_shot(const Session& session, const SceneBaseline& opened) {
     const Shot& shot = session.shot();
     return session.camera_is_set() || lights_edited(shot.scene, opened) ||
            shot.environment.radiance != opened.environment || shot.diffuse_only != opened.diffuse_only ||
-           shot.normal_maps != opened.normal_maps;
+           shot.normal_maps != opened.normal_maps || shot.material_model != opened.material_model;
 }
 
 std::string unsaved_edits(const Session& session, const SceneBaseline& opened) {

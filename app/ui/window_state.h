@@ -38,6 +38,7 @@ struct SceneBaseline {
     std::vector<Material> materials;
     glm::vec3 environment{0};
     bool diffuse_only = false, normal_maps = true;
+    MaterialModel material_model = MaterialModel::gltf;
 };
 
 struct CaptureState {

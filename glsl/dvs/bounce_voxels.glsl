@@ -2,6 +2,7 @@
 #define DVS_BOUNCE_VOXELS_GLSL
 // One bounce of diffuse light between voxels (DVS, section IX): cones about each voxel's averaged normal, times its albedo,
 // added to its direct light: L = L_direct + ρ·(E/π).
+#include "lib/material_model.glsl"
 #include "dvs/cone.glsl"
 #include "dvs/list.glsl"
 #include "dvs/voxel_surface.glsl"
@@ -47,7 +48,7 @@ void bounce_voxel() {
             return;
         }
     }
-    vec3 albedo = texelFetch(voxels_albedo, voxel, 0).rgb, n = voxel_normal(voxel);
+    vec3 albedo = mean_diffuse_share() * texelFetch(voxels_albedo, voxel, 0).rgb, n = voxel_normal(voxel);
     vec4 direct = texelFetch(dvs_radiance, voxel, 0);
     imageStore(dvs_bounced, voxel, vec4(min(direct.rgb + albedo * gathered(grid, voxel, n), vec3(65504.0)), 1.0));
     if (!two_sided) return;

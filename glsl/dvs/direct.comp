@@ -4,7 +4,9 @@
 //   V_r = Σ L_i·(ρ/π)·(W_x·D_x + W_y·D_y + W_z·D_z)·ν + L_e.
 // ν by shadow map, at V_p + N·V_size/2 (section VI.C), or by a ray through the voxels: hard, or soft,
 //   ν ← ν + (1 − ν)·κ/t, t in voxels, of which 1 − ν is left.
+// ρ is the diffuse lobe's albedo for light from Ψ (lib/material_model.glsl).
 #define SCENE_LIGHTS
+#include "lib/material_model.glsl"
 #include "lib/scene.glsl"
 #include "lib/shadow.glsl"
 #include "dvs/list.glsl"
@@ -88,7 +90,7 @@ vec3 voxel_light(ivec3 voxel, vec3 n, vec3 albedo, int size) {
             float distance = far ? 4.0 * side : length(lights[i].position - centre);
             seen = ray_visibility(centre - voxel_grid_origin(side), l, distance, width, size);
         }
-        sum += irradiance * (cosine * seen);
+        sum += irradiance * (cosine * seen * diffuse_share(dot(n, l)));
     }
     return sum * albedo / 3.14159265359;
 }

@@ -17,6 +17,7 @@ in Surface {
 } surface;
 flat in uint surface_material;
 flat in uint surface_triangle;
+flat in uint surface_draw;
 flat in vec3 surface_a;
 flat in vec3 surface_b;
 flat in vec3 surface_c;
@@ -42,7 +43,7 @@ void main() {
     vec4 base = sample_base_colour(material, uv, surface.colour);
     float metallic = material.metallic * sample_slot(material_metallic_roughness, material.metallic_roughness_texture, uv).b;
     vec3 emission = material.emission * sample_slot(material_emission, material.emission_texture, uv).rgb;
-    if (gl_HelperInvocation || alpha_rejects(material, base.a)) return;
+    if (gl_HelperInvocation) return;
 
     vec3 normal = cross(surface_b - surface_a, surface_c - surface_a);
     int axis = dominant_axis(normal);
@@ -69,12 +70,15 @@ void main() {
         // Outside the triangle its plane may leave its box.
         float least = min(surface_a[axis], min(surface_b[axis], surface_c[axis]));
         float most = max(surface_a[axis], max(surface_b[axis], surface_c[axis]));
-        store(unproject(column, int(floor(clamp(depth, least, most))), axis), f, facing);
+        ivec3 voxel = unproject(column, int(floor(clamp(depth, least, most))), axis);
+        if (surface_is_there(material, base.a, voxel_place(voxel, axis, surface_draw))) store(voxel, f, facing);
         return;
     }
     float reach = 0.5 * (abs(across.x) + abs(across.y) + abs(across.z)) / abs(normal[axis]);
     for (int d = int(floor(depth - reach - 1.0e-3)); d <= int(floor(depth + reach + 1.0e-3)); ++d) {
         ivec3 voxel = unproject(column, d, axis);
-        if (triangle_overlaps_voxel(surface_a, surface_b, surface_c, voxel)) store(voxel, f, facing);
+        if (triangle_overlaps_voxel(surface_a, surface_b, surface_c, voxel) &&
+            surface_is_there(material, base.a, voxel_place(voxel, axis, surface_draw)))
+            store(voxel, f, facing);
     }
 }

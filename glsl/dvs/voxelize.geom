@@ -26,6 +26,7 @@ out Surface {
 } surface;
 flat out uint surface_material;
 flat out uint surface_triangle;
+flat out uint surface_draw;
 flat out vec3 surface_a;
 flat out vec3 surface_b;
 flat out vec3 surface_c;
@@ -68,6 +69,7 @@ void main() {
         surface.uv = corner[0].uv + share.x * (corner[1].uv - corner[0].uv) + share.y * (corner[2].uv - corner[0].uv);
         surface.colour = corner[0].colour + share.x * (corner[1].colour - corner[0].colour) + share.y * (corner[2].colour - corner[0].colour);
         surface_material = corner_material[0];
+        surface_draw = uint(corner_draw[0]);
         surface_triangle = draw_starts[corner_draw[0]] + uint(gl_PrimitiveIDIn);
         surface_a = a;
         surface_b = b;

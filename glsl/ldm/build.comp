@@ -10,6 +10,7 @@
 #define SCENE_GEOMETRY
 #include "lib/scene.glsl"
 #include "lib/scene_textures.glsl"
+#include "lib/coverage.glsl"
 #include "ldm/insert.glsl"
 #include "ldm/node.glsl"
 // Behind the counters lie the draws' first triangles, and the marks (blocks of their own would be too many).
@@ -121,10 +122,11 @@ void insert_texel(FlatTriangle t, int slot, ivec2 texel) {
     vec3 albedo = vec3(0.0);
     bool passes = true;
     // A loop and not a branch: some software drivers go through all lookups of a branch that no invocation takes.
-    for (bool looks_up = material.alpha_cutoff >= 0.0 || ldm.node_words > 3; looks_up; looks_up = false) {
+    for (bool looks_up = alpha_matters(material) || ldm.node_words > 3; looks_up; looks_up = false) {
         Vertex corners[3] = Vertex[3](vertices[index_at(t, 0)], vertices[index_at(t, 1)], vertices[index_at(t, 2)]);
         TrianglePoint point = triangle_point_of(corners, weight, area / float(k_unit * k_unit));
-        passes = material.alpha_cutoff < 0.0 || alpha_of(material, point) >= material.alpha_cutoff;
+        uint place = texel_place(texel, uint(batch + slot * ldm.batches), uint(t.draw), (t.first - draws[t.draw].first_index) / 3u);
+        passes = !alpha_matters(material) || surface_is_there(material, alpha_of(material, point), place);
         for (bool coloured = ldm.node_words > 3; coloured; coloured = false) {
             albedo = material.base_colour.rgb * point.colour.rgb * sample_at_point(material.base_colour_texture, point, 16.0).rgb;
             albedo *= 1.0 - material.metallic * sample_at_point(material.metallic_roughness_texture, point, 16.0).b;

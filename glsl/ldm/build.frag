@@ -1,4 +1,4 @@
-// One fragment of a layered depth map: front and back faces alike, alpha-tested, into its texel's sorted list.
+// One fragment of a layered depth map: front and back faces alike, where its alpha says so, into its texel's sorted list.
 #define SCENE_MATERIALS
 #include "lib/material_raster.glsl"
 #include "ldm/insert.glsl"
@@ -10,7 +10,10 @@ in Surface {
     vec4 colour;
 } surface;
 flat in uint surface_material;
+flat in uint surface_draw;
 flat in int surface_slot;
+
+uniform int batch; // its number
 
 void main() {
     Material material = materials[surface_material];
@@ -19,7 +22,8 @@ void main() {
     float metallic = material.metallic *
                      sample_slot(material_metallic_roughness, material.metallic_roughness_texture, surface_uv(surface.uv)).b;
     if (gl_HelperInvocation) return; // they would loop over lists that they never change (llvmpipe does so for seconds)
-    if (alpha_rejects(material, base.a)) return;
     ivec2 texel = ivec2(gl_FragCoord.xy);
+    uint map = uint(batch + surface_slot * ldm.batches);
+    if (!surface_is_there(material, base.a, texel_place(texel, map, surface_draw, uint(gl_PrimitiveID)))) return;
     insert_fragment(uint(ldm_head(surface_slot, texel)), pack_node(surface.depth, slope, base.rgb * (1.0 - metallic)));
 }

@@ -12,6 +12,7 @@ out Surface {
     vec4 colour;
 } surface;
 flat out uint surface_material;
+flat out uint surface_draw;
 flat out int surface_slot;
 
 void main() {
@@ -22,6 +23,7 @@ void main() {
     surface.uv = vec4(vertex_position_u.w, vertex_normal_v.w, vertex_uv1);
     surface.colour = vertex_colour();
     surface_material = draw.material;
+    surface_draw = gl_BaseInstance;
     surface_slot = gl_InstanceID;
     gl_Position = vec4(2.0 * p.xy / float(ldm.resolution) - 1.0, p.z, 1.0);
 }

@@ -7,6 +7,7 @@
 // whole sphere). A path is a number: 0 ends at the first arrival; 1 … S took one of S axes more; then come the S·T that
 // took one of T more after that.
 #include "lib/frame.glsl"
+#include "lib/material_model.glsl"
 #include "ldm/trace.glsl"
 #include "ldm/photon.glsl"
 
@@ -66,7 +67,7 @@ Emitter split_again(Emitter emitter, Leg leg, LdmView view, int batch, int parts
     Emitter next = emitter;
     next.position = emitter.position + leg.t * leg.d;
     next.normal = n;
-    next.flux = emitter.flux * leg.cosine * unpackUnorm4x8(ldm_word(leg.node, 3)).rgb / max(cosines, 1.0e-6);
+    next.flux = emitter.flux * leg.cosine * mean_diffuse_share() * unpackUnorm4x8(ldm_word(leg.node, 3)).rgb / max(cosines, 1.0e-6);
     next.incoming = vec4(-leg.d, 0.0);
     next.du_direction.xyz = rotated(emitter.incoming.xyz, leg.d, emitter.du_direction.xyz);
     next.dv_direction.xyz = rotated(emitter.incoming.xyz, leg.d, emitter.dv_direction.xyz);

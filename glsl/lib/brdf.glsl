@@ -1,6 +1,7 @@
 #ifndef LIB_BRDF_GLSL
 #define LIB_BRDF_GLSL
-// The surface model of the ground rules: f(v, l) = rho / pi + D·V·F, a plain sum.
+// The surface model of the ground rules: f(v, l) = w·rho / pi + D·V·F, where w = 1 in the plain sum, and 1 − F_d(v·h) with
+// the dielectric's F_d in glTF 2.0's own model (appendix B, "Metal BRDF and Dielectric BRDF").
 //   rho = base_colour·(1 − metallic),  F0 = mix(0.04, base_colour, metallic),  alpha = roughness²
 //   D: GGX (Walter et al. 2007, Eq. 33);  V: height-correlated Smith visibility (Heitz 2014, Eq. 99, over 4·nl·nv);  F: Schlick 1994.
 // All vectors are unit; v points to the viewer and l to the light; n faces the viewer. passes/scene/brdf.h mirrors this file.
@@ -45,6 +46,11 @@ float schlick_weight(vec3 v, vec3 h) {
     vec3 difference = v - h;
     float m = min(0.5 * dot(difference, difference), 1.0);
     return m * m * m * m * m;
+}
+
+// Appendix B's weight of the diffuse lobe: 1 − F(v·h) of the dielectric.
+float fresnel_diffuse_weight(vec3 v, vec3 h) {
+    return (1.0 - k_dielectric_f0) * (1.0 - schlick_weight(v, h));
 }
 
 // The microfacet lobe without the cosine; 0 where the light or the viewer is below the horizon.

@@ -28,7 +28,7 @@ layout(std140) uniform Frame {
     int diffuse_only; // every material is Lambert with rho = base_colour·(1 − metallic)
     int shadow_view_count;
     int normal_maps;
-    int frame_padding;
+    int material_model; // 0 plain, 1 gltf, 2 appendix_b: lib/material_model.glsl
 };
 
 // The direction through a pixel's centre, with a forward component of 1 (so that distance along the view is a factor).

@@ -2,6 +2,7 @@
 #define LIB_MATERIAL_RASTER_GLSL
 // Material textures as raster passes see them: bound per material by the draw.
 #include "lib/scene.glsl"
+#include "lib/coverage.glsl"
 
 uniform sampler2D material_base_colour;       // sRGB decoded; a = alpha
 uniform sampler2D material_metallic_roughness; // g = roughness, b = metallic
@@ -27,9 +28,5 @@ vec4 sample_slot(sampler2D map, TextureUse use, SurfaceUv uv) {
 
 vec4 sample_base_colour(Material material, SurfaceUv uv, vec4 colour) {
     return material.base_colour * colour * sample_slot(material_base_colour, material.base_colour_texture, uv);
-}
-
-bool alpha_rejects(Material material, float alpha) {
-    return material.alpha_cutoff >= 0.0 && alpha < material.alpha_cutoff;
 }
 #endif

@@ -34,7 +34,7 @@ struct TextureUse {
 struct Material {
     vec4 base_colour;
     vec3 emission;      // radiance
-    float alpha_cutoff; // below 0: not alpha-tested
+    float alpha_cutoff; // −1: opaque; −2: blended (lib/coverage.glsl)
     float metallic;
     float roughness;
     float normal_scale;

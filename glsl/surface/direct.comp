@@ -1,8 +1,8 @@
 // Light of the punctual lights, scattered once toward the camera:
 //   L_o(x, v) = Σ_lights f(v, l) · E_n · ⟨n·l⟩ · V(x, l),   E_n: irradiance at normal incidence (KHR_lights_punctual)
 #define SCENE_LIGHTS
-#include "lib/brdf.glsl"
 #include "lib/frame.glsl"
+#include "lib/material_model.glsl"
 #include "lib/scene.glsl"
 #include "lib/shadow.glsl"
 
@@ -54,9 +54,7 @@ void main() {
             int layer = shadow_layer(light, position);
             irradiance *= shadow_visibility(shadow_depth, views[layer], layer, position, face, normal_offset, depth_bias, filter_radius, receiver_plane);
         }
-        vec3 f = brdf_diffuse(base_colour, rm.y);
-        if (diffuse_only == 0) f += brdf_specular(n, v, l, base_colour, rm.y, rm.x);
-        radiance += f * irradiance * cosine;
+        radiance += surface_lobes(n, v, l, base_colour, rm.y, rm.x) * irradiance * cosine;
     }
     imageStore(out_direct, pixel, vec4(min(radiance, vec3(65504.0)), 1.0));
 }

@@ -13,6 +13,9 @@ in Surface {
     vec4 colour;
 } surface;
 flat in uint surface_material;
+flat in uint surface_draw;
+
+uniform bool coverage_by_frame = false; //! static each frame draws anew where blended surfaces are; off: a still picture stays as it is
 
 layout(location = 0) out vec4 albedo;           // base colour; a = 1 where there is a surface
 layout(location = 1) out vec4 normal;           // shading normal, world
@@ -28,7 +31,8 @@ void main() {
     vec2 rm = sample_slot(material_metallic_roughness, material.metallic_roughness_texture, uv).gb;
     vec3 glow = sample_slot(material_emission, material.emission_texture, uv).rgb;
     vec3 face = cross(dFdx(surface.position), dFdy(surface.position));
-    if (alpha_rejects(material, base.a)) discard;
+    uint view = coverage_by_frame ? uint(frame_index) + 1u : 0u;
+    if (!surface_is_there(material, base.a, texel_place(ivec2(gl_FragCoord.xy), view, surface_draw, uint(gl_PrimitiveID)))) discard;
 
     vec3 to_viewer = normalize(camera_position - surface.position);
     face = unit_or(face, unit_or(surface.normal, to_viewer));

@@ -12,6 +12,7 @@ out Surface {
     vec4 colour;
 } surface;
 flat out uint surface_material;
+flat out uint surface_draw;
 
 void main() {
     Draw draw = draws[gl_BaseInstance];
@@ -22,5 +23,6 @@ void main() {
     surface.uv = vec4(vertex_position_u.w, vertex_normal_v.w, vertex_uv1);
     surface.colour = vertex_colour();
     surface_material = draw.material;
+    surface_draw = gl_BaseInstance;
     gl_Position = view_projection * position;
 }

@@ -15,6 +15,7 @@ out Surface {
     vec4 colour;
 } surface;
 flat out uint surface_material;
+flat out uint surface_draw;
 
 void main() {
     Draw draw = draws[gl_BaseInstance];
@@ -25,5 +26,6 @@ void main() {
     surface.uv = vec4(vertex_position_u.w, vertex_normal_v.w, vertex_uv1);
     surface.colour = vertex_colour();
     surface_material = draw.material;
+    surface_draw = gl_BaseInstance;
     gl_Position = views[view_index].view_projection * position;
 }

@@ -14,6 +14,7 @@ in Surface {
     vec4 colour;
 } surface;
 flat in uint surface_material;
+flat in uint surface_draw;
 flat in vec3 surface_a;
 flat in vec3 surface_b;
 flat in vec3 surface_c;
@@ -26,7 +27,7 @@ ivec3 unproject(ivec2 plane, int depth, int axis) {
 void main() {
     Material material = materials[surface_material];
     float alpha = sample_base_colour(material, surface_uv(surface.uv), surface.colour).a;
-    if (gl_HelperInvocation || alpha_rejects(material, alpha)) return;
+    if (gl_HelperInvocation) return;
     bool both_sides = (material.flags & 1u) != 0u;
 
     vec3 normal = cross(surface_b - surface_a, surface_c - surface_a);
@@ -38,14 +39,17 @@ void main() {
     across[axis] = 0.0;
     float depth = surface_a[axis] - dot(across, vec3(unproject(column, 0, axis)) + 0.5 - surface_a) / normal[axis];
     if (fill == 0) {
-        store_occlusion(unproject(column, int(floor(depth)), axis), surface_facing, both_sides, resolution_of_grid);
+        ivec3 voxel = unproject(column, int(floor(depth)), axis);
+        if (surface_is_there(material, alpha, voxel_place(voxel, axis, surface_draw)))
+            store_occlusion(voxel, surface_facing, both_sides, resolution_of_grid);
         return;
     }
     float reach = 0.5 * (abs(normal.x) + abs(normal.y) + abs(normal.z) - abs(normal[axis])) / abs(normal[axis]);
     int last = min(int(floor(depth + reach + 1.0e-3)), resolution_of_grid - 1);
     for (int d = max(int(floor(depth - reach - 1.0e-3)), 0); d <= last; ++d) {
         ivec3 voxel = unproject(column, d, axis);
-        if (triangle_overlaps_voxel(surface_a, surface_b, surface_c, voxel))
+        if (triangle_overlaps_voxel(surface_a, surface_b, surface_c, voxel) &&
+            surface_is_there(material, alpha, voxel_place(voxel, axis, surface_draw)))
             store_occlusion(voxel, surface_facing, both_sides, resolution_of_grid);
     }
 }

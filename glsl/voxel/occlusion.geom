@@ -16,12 +16,14 @@ in Corner {
     vec4 colour;
 } corner[];
 flat in uint corner_material[];
+flat in uint corner_draw[];
 
 out Surface {
     vec4 uv;
     vec4 colour;
 } surface;
 flat out uint surface_material;
+flat out uint surface_draw;
 flat out vec3 surface_a;
 flat out vec3 surface_b;
 flat out vec3 surface_c;
@@ -36,6 +38,7 @@ void emit(vec2 plane, vec4 uv, vec4 colour, vec3 facing) {
     surface.uv = uv;
     surface.colour = colour;
     surface_material = corner_material[0];
+    surface_draw = corner_draw[0];
     surface_a = corner[0].position;
     surface_b = corner[1].position;
     surface_c = corner[2].position;

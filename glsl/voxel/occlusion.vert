@@ -13,6 +13,7 @@ out Corner {
     vec4 colour;
 } corner;
 flat out uint corner_material;
+flat out uint corner_draw;
 
 void main() {
     Draw draw = draws[gl_BaseInstance];
@@ -21,5 +22,6 @@ void main() {
     corner.uv = vec4(vertex_position_u.w, vertex_normal_v.w, vertex_uv1);
     corner.colour = vertex_colour();
     corner_material = draw.material;
+    corner_draw = gl_BaseInstance;
     gl_Position = vec4(0.0);
 }

@@ -2,7 +2,7 @@
 #define VOXEL_TRIANGLE_VOXELS_GLSL
 // Visits exactly the voxels that each triangle overlaps (lib/triangle_box.glsl), without a rasterizer. Sixteen invocations
 // share a triangle and take the columns along its dominant axis in turn (so that none loops 65,536 times at 512³, where
-// some software drivers cut loops off). Alpha-tested materials are looked up at the voxel's middle.
+// some software drivers cut loops off). Alpha is looked up at the voxel's middle.
 // Whoever includes this file defines visit_voxel (and SKIP_VOXEL, if some are left out), and calls visit_triangles from a
 // group of 256.
 #ifndef SKIP_VOXEL
@@ -15,6 +15,7 @@
 #include "lib/triangle_box.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/scene_textures.glsl"
+#include "lib/coverage.glsl"
 
 // The first triangle of each draw, in order; one more entry at the end.
 layout(std430) readonly buffer voxels_draw_starts { uint draw_starts[]; };
@@ -70,8 +71,11 @@ vec3 facing_of(VisitedTriangle t, Vertex corners[3]) {
 // Whether the triangle has a surface in the voxel: it overlaps, and is not cut away by its alpha there.
 bool triangle_fills(VisitedTriangle t, ivec3 voxel) {
     if (!triangle_overlaps_voxel(t.positions[0], t.positions[1], t.positions[2], voxel)) return false;
-    float cutoff = materials[t.material].alpha_cutoff;
-    return cutoff < 0.0 || alpha_at(materials[t.material], corners_of(t), t.positions, vec3(voxel) + 0.5) >= cutoff;
+    Material material = materials[t.material];
+    if (!alpha_matters(material)) return true;
+    float alpha = alpha_at(material, corners_of(t), t.positions, vec3(voxel) + 0.5);
+    int axis = dominant_axis(cross(t.positions[1] - t.positions[0], t.positions[2] - t.positions[0]));
+    return surface_is_there(material, alpha, voxel_place(voxel, axis, uint(t.draw)));
 }
 
 void visit_voxel(VisitedTriangle triangle, ivec3 voxel);

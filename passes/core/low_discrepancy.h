@@ -76,6 +76,11 @@ class PixelSampler {
     /// Jumps to the dimensions of block `block`, so that what was drawn before has no influence on what follows.
     void start_block(uint32_t block) { dimension_ = block << 10; }
 
+    /// A hash of the sample and of what was drawn so far, which draws nothing itself; never 0.
+    uint32_t key(uint32_t salt) const {
+        return hash_combine(hash_combine(hash_combine(seed_, index_reversed_), dimension_), salt) | 1u;
+    }
+
   private:
     uint32_t next_dimension() { return hash_combine(seed_, dimension_++); }
 

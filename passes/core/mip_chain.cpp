@@ -94,4 +94,53 @@ std::vector<Image8> mip_chain(const Image8& image, bool srgb) {
     return levels;
 }
 
+namespace {
+
+/// How many texels have each alpha.
+std::array<size_t, 256> alpha_histogram(const Image8& image) {
+    std::array<size_t, 256> count{};
+    for (size_t i = 3; i < image.rgba.size(); i += 4)
+        ++count[image.rgba[i]];
+    return count;
+}
+
+} // namespace
+
+void keep_coverage(const Image8& whole, std::vector<Image8>& levels, float cutoff) {
+    const size_t first = size_t(std::clamp(std::ceil(cutoff * 255), 0.0f, 256.0f)); // the lowest code that passes
+    const std::array<size_t, 256> all = alpha_histogram(whole);
+    size_t pass = 0, texels = 0;
+    for (size_t code = 0; code < 256; ++code) {
+        texels += all[code];
+        pass += code >= first ? all[code] : 0;
+    }
+    if (first == 0 || first > 255 || pass == 0 || pass == texels) return; // nothing that a scale could keep
+    for (Image8& level : levels) {
+        const std::array<size_t, 256> count = alpha_histogram(level);
+        const double wanted = double(pass) / double(texels) * double(level.rgba.size() / 4);
+        // The code from which on the level's texels are as many as wanted, as nearly as codes allow.
+        size_t border = 256, above = 0;
+        double best = wanted;
+        for (size_t code = 255; code > 0; --code) {
+            above += count[code];
+            if (const double off = std::abs(double(above) - wanted); count[code] && off < best) {
+                best = off;
+                border = code;
+            }
+        }
+        for (size_t i = 3; i < level.rgba.size(); i += 4) {
+            const int code = level.rgba[i];
+            // `border` becomes the first code that passes; above it alphas keep their share of the way to 255.
+            const bool passes = size_t(code) >= border;
+            const double scaled = border > 255 || !passes
+                                      ? double(code) * double(first) / double(std::min<size_t>(border, 256))
+                                      : double(first) + (double(code) - double(border)) * double(255 - first) /
+                                                            std::max(1.0, double(255 - border));
+            const int rounded = int(std::lround(scaled));
+            level.rgba[i] =
+                uint8_t(passes ? std::clamp(rounded, int(first), 255) : std::clamp(rounded, 0, int(first) - 1));
+        }
+    }
+}
+
 } // namespace bounce

@@ -13,4 +13,8 @@ namespace bounce {
 /// once.
 std::vector<Image8> mip_chain(const Image8& image, bool srgb);
 
+/// Scales each level's alpha so that as large a share of its texels reaches `cutoff` (0 … 1) as of level 0's: means of
+/// alpha alone would let masked leaves vanish in the distance.
+void keep_coverage(const Image8& whole, std::vector<Image8>& levels, float cutoff);
+
 } // namespace bounce

@@ -148,7 +148,7 @@ class VoxelizationPass : public Pass {
             add(draw.world), add(draw.material), add(draw.first_index), add(draw.index_count);
         }
         for (const Material& m : c.scene().material_list())
-            add(m.base_colour), add(m.emission), add(m.metallic), add(m.alpha_mask), add(m.alpha_cutoff),
+            add(m.base_colour), add(m.emission), add(m.metallic), add(m.alpha_mode), add(m.alpha_cutoff),
                 add(m.double_sided);
         return state;
     }

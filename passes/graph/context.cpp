@@ -141,6 +141,8 @@ Program& PassContext::use(const std::string& name) {
         const PlanSlot* s = pass_.find(slot_name(sampler.name));
         if (sampler.name == "scene_environment")
             texture = scene().environment().id();
+        else if (sampler.name == "scene_lobe_albedo")
+            texture = scene().lobe_albedo().id();
         else if (s && s->resource >= 0) {
             texture = graph_.allocations_
                           .view(s->resource, s->bind.previous, index_at(s->bind.mip, iteration),

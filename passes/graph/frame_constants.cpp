@@ -54,6 +54,7 @@ static const std::map<std::string, Getter>& getters() {
         {"frame_index", [](const FrameConstants& c) -> ParameterValue { return c.frame_index; }},
         {"light_count", [](const FrameConstants& c) -> ParameterValue { return c.light_count; }},
         {"diffuse_only", [](const FrameConstants& c) -> ParameterValue { return c.diffuse_only; }},
+        {"material_model", [](const FrameConstants& c) -> ParameterValue { return c.material_model; }},
         {"normal_maps", [](const FrameConstants& c) -> ParameterValue { return c.normal_maps; }},
         {"shadow_view_count", [](const FrameConstants& c) -> ParameterValue { return c.shadow_view_count; }},
     };

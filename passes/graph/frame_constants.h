@@ -37,7 +37,7 @@ struct FrameConstants {
     int diffuse_only = 0; ///< every material is Lambert with ρ = base colour · (1 − metallic)
     int shadow_view_count = 0;
     int normal_maps = 1;
-    int padding = 0;
+    int material_model = 0; ///< MaterialModel; glsl/lib/material_model.glsl
 };
 static_assert(sizeof(FrameConstants) == 5 * 64 + 7 * 16 + 2 * 16);
 

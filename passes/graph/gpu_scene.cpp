@@ -1,6 +1,7 @@
 #include "graph/gpu_scene.h"
 
 #include "core/error.h"
+#include "scene/lobe_albedo.h"
 #include "scene/normal_transform.h"
 
 #include <algorithm>
@@ -48,6 +49,10 @@ GpuScene::GpuScene(const Scene& scene, const Environment& environment)
         glTextureSubImage2D(environment_.id(), 0, 0, 0, map.width, map.height, format, GL_FLOAT, map.pixels.data());
         glTextureParameteri(environment_.id(), GL_TEXTURE_WRAP_S, GL_REPEAT);
     }
+    constexpr int k_table = LobeAlbedoTable::k_size;
+    lobe_albedo_ = GpuTexture({TextureKind::texture_2d, GL_RG32F, {k_table, k_table, 1}, 1}, "scene.lobe_albedo");
+    glTextureSubImage2D(lobe_albedo_.id(), 0, 0, 0, k_table, k_table, GL_RG, GL_FLOAT,
+                        lobe_albedo_table().entries.data());
     upload_textures(scene);
     update_materials(scene.materials);
 }
@@ -83,7 +88,9 @@ void GpuScene::update_materials(const std::vector<Material>& materials) {
         GpuMaterial out;
         out.base_colour = m.base_colour;
         out.emission = m.emission;
-        out.alpha_cutoff = m.alpha_mask ? m.alpha_cutoff : -1.0f;
+        out.alpha_cutoff = m.alpha_mode == AlphaMode::mask    ? m.alpha_cutoff
+                           : m.alpha_mode == AlphaMode::blend ? -2.0f
+                                                              : -1.0f;
         out.metallic = m.metallic;
         out.roughness = m.roughness;
         out.normal_scale = m.normal_scale;
@@ -150,7 +157,7 @@ uint64_t GpuScene::geometry_bytes() const {
 }
 
 uint64_t GpuScene::texture_bytes() const {
-    uint64_t bytes = bounce::texture_bytes(environment_.desc());
+    uint64_t bytes = bounce::texture_bytes(environment_.desc()) + bounce::texture_bytes(lobe_albedo_.desc());
     for (const Array& array : arrays_)
         bytes += bounce::texture_bytes(array.texture.desc());
     return bytes;

@@ -68,6 +68,8 @@ class GpuScene {
     const Buffer& materials() const { return materials_; }
     const Buffer& lights() const { return lights_; }
     const GpuTexture& environment() const { return environment_; }
+    /// LobeAlbedoTable; row = roughness.
+    const GpuTexture& lobe_albedo() const { return lobe_albedo_; }
     /// Array i, or a 1×1 white stand-in.
     const GpuTexture& texture_array(int i) const;
     GLuint texture_array_sampler(int i) const;
@@ -102,7 +104,7 @@ class GpuScene {
 
     Buffer vertices_, indices_, draws_, materials_, lights_;
     VertexArray vertex_array_;
-    GpuTexture environment_, white_, white_array_, flat_normal_;
+    GpuTexture environment_, lobe_albedo_, white_, white_array_, flat_normal_;
     std::vector<Array> arrays_;
     std::vector<std::pair<int, int>> places_; ///< per Scene::textures: array, layer
     std::vector<GpuTexture> views_;           ///< per Scene::textures

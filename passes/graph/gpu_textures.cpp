@@ -108,7 +108,19 @@ std::vector<uint8_t> resized(const Texture& texture, glm::ivec2 size) {
 }
 } // namespace
 
+/// By texture, the alpha at which a masked material that reads it as its base colour cuts; 0 where none does.
+static std::vector<float> mask_cutoffs(const Scene& scene) {
+    std::vector<float> cutoffs(scene.textures.size(), 0.0f);
+    for (const Material& material : scene.materials) {
+        const int texture = material.base_colour_texture.texture;
+        if (material.alpha_mode != AlphaMode::mask || texture < 0 || !(material.base_colour.a > 0)) continue;
+        cutoffs[size_t(texture)] = material.alpha_cutoff / material.base_colour.a;
+    }
+    return cutoffs;
+}
+
 void GpuScene::upload_textures(const Scene& scene) {
+    const std::vector<float> cutoffs = mask_cutoffs(scene);
     std::vector<Bucket> buckets = fill_buckets(scene);
     join_buckets(buckets, k_texture_arrays);
     places_.assign(scene.textures.size(), {-1, 0});
@@ -131,7 +143,9 @@ void GpuScene::upload_textures(const Scene& scene) {
             };
             upload(0, whole);
             int mip = 0;
-            for (const Image8& smaller : mip_chain(whole, bucket.srgb))
+            std::vector<Image8> levels = mip_chain(whole, bucket.srgb);
+            if (cutoffs[size_t(index)] > 0) keep_coverage(whole, levels, cutoffs[size_t(index)]);
+            for (const Image8& smaller : levels)
                 upload(++mip, smaller);
             places_[size_t(index)] = {array_index, int(layer)};
         }

@@ -35,8 +35,8 @@ void Graph::watch() {
 static bool same_needs(const SceneFacts& a, const SceneFacts& b) {
     auto key = [](const SceneFacts& f) {
         return std::make_tuple(f.triangles, f.instances, f.dynamic_instances, f.glossy_materials, f.emissive_materials,
-                               f.alpha_tested_materials, f.point_lights, f.spot_lights, f.directional_lights,
-                               f.animated_lights, f.environment, f.materials);
+                               f.alpha_tested_materials, f.blended_materials, f.point_lights, f.spot_lights,
+                               f.directional_lights, f.animated_lights, f.environment, f.materials);
     };
     return key(a) == key(b);
 }

@@ -32,6 +32,7 @@ static SceneFacts usual_scene() {
     facts.triangles = facts.vertices = 1000;
     facts.materials = facts.instances = 1;
     facts.glossy_materials = facts.emissive_materials = facts.alpha_tested_materials = 1;
+    facts.blended_materials = 1;
     facts.point_lights = facts.spot_lights = facts.directional_lights = 1;
     facts.environment = true;
     facts.bounds = facts.bounds_over_animation = {glm::vec3(-1), glm::vec3(1)};

@@ -57,6 +57,7 @@ std::optional<double> scene_fact(const SceneFacts& facts, const std::string& nam
         {"emissive_materials", double(facts.emissive_materials)},
         {"glossy_materials", double(facts.glossy_materials)},
         {"alpha_tested_materials", double(facts.alpha_tested_materials)},
+        {"blended_materials", double(facts.blended_materials)},
         {"dynamic_instances", double(facts.dynamic_instances)},
         {"animated_lights", facts.animated_lights ? 1.0 : 0.0},
         {"environment", facts.environment ? 1.0 : 0.0},

@@ -50,7 +50,7 @@ static void add_material(ContentHash& hash, const Material& m) {
     hash.add_value(m.roughness);
     hash.add_value(m.emission);
     hash.add_value(m.normal_scale);
-    hash.add_value(int(m.alpha_mask));
+    hash.add_value(int(m.alpha_mode));
     hash.add_value(m.alpha_cutoff);
     for (const TextureSlot* slot :
          {&m.base_colour_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emission_texture}) {
@@ -130,6 +130,7 @@ std::string content_key(const Shot& shot, const ShotState& state, const Referenc
     hash.add(std::string(k_tracer_version));
     hash.add_value(settings.bounces);
     hash.add_value(int(settings.diffuse_only || shot.diffuse_only));
+    if (shot.effective_model() != MaterialModel::plain) hash.add_value(int(shot.effective_model()) + 0x100);
     hash.add_value(settings.occlusion_distance);
     if (settings.occlusion_falloff != OcclusionFalloff::none) hash.add_value(int(settings.occlusion_falloff));
     hash.add_value(settings.roulette_depth);

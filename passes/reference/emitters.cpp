@@ -49,7 +49,7 @@ Emitters::Sample Emitters::sample(const TraceGeometry& geometry, const glm::vec3
                                          -glm::dot(normal, sample.direction));
     if (sample.density <= 0) return sample;
     sample.position = point + self_intersection_epsilon(p0, p1, p2) * normal;
-    sample.radiance = geometry.emission(mesh, triangle.triangle, b, c);
+    sample.radiance = geometry.expected_emission(mesh, triangle.triangle, b, c);
     return sample;
 }
 

@@ -1,6 +1,8 @@
 #include "reference/geometry.h"
 
+#include "core/low_discrepancy.h"
 #include "scene/brdf.h"
+#include "scene/coverage.h"
 
 #include <cmath>
 
@@ -35,7 +37,8 @@ TraceGeometry::Corners TraceGeometry::corners(const Geometry& geometry, uint32_t
     return {&geometry.vertices[i[0]], &geometry.vertices[i[1]], &geometry.vertices[i[2]]};
 }
 
-Hit TraceGeometry::intersect(const glm::vec3& origin, const glm::vec3& direction, float length) const {
+Hit TraceGeometry::intersect(const glm::vec3& origin, const glm::vec3& direction, float length,
+                             uint32_t coverage_seed) const {
     RTCRayHit ray;
     ray.ray.org_x = origin.x;
     ray.ray.org_y = origin.y;
@@ -47,7 +50,7 @@ Hit TraceGeometry::intersect(const glm::vec3& origin, const glm::vec3& direction
     ray.ray.time = 0;
     ray.ray.tfar = length;
     ray.ray.mask = ~0u;
-    ray.ray.id = 0;
+    ray.ray.id = coverage_seed; // for the filter
     ray.ray.flags = 0;
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -57,7 +60,8 @@ Hit TraceGeometry::intersect(const glm::vec3& origin, const glm::vec3& direction
     return {ray.hit.geomID, ray.hit.primID, ray.hit.u, ray.hit.v, ray.ray.tfar};
 }
 
-bool TraceGeometry::occluded(const glm::vec3& origin, const glm::vec3& direction, float length) const {
+bool TraceGeometry::occluded(const glm::vec3& origin, const glm::vec3& direction, float length,
+                             uint32_t coverage_seed) const {
     RTCRay ray;
     ray.org_x = origin.x;
     ray.org_y = origin.y;
@@ -69,7 +73,7 @@ bool TraceGeometry::occluded(const glm::vec3& origin, const glm::vec3& direction
     ray.time = 0;
     ray.tfar = length;
     ray.mask = ~0u;
-    ray.id = 0;
+    ray.id = coverage_seed;
     ray.flags = 0;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -77,9 +81,9 @@ bool TraceGeometry::occluded(const glm::vec3& origin, const glm::vec3& direction
     return ray.tfar < 0;
 }
 
-bool TraceGeometry::opaque(const Geometry& geometry, uint32_t triangle, float u, float v) const {
+float TraceGeometry::coverage(const Geometry& geometry, uint32_t triangle, float u, float v) const {
     const TraceMaterial& material = materials_[size_t(geometry.material)];
-    if (!material.alpha_mask) return true;
+    if (material.alpha_mode == AlphaMode::opaque) return 1;
     const Corners t = corners(geometry, triangle);
     float alpha = material.base_colour.a;
     if (const auto& use = material.base_colour_texture; use.texture) {
@@ -88,7 +92,8 @@ bool TraceGeometry::opaque(const Geometry& geometry, uint32_t triangle, float u,
             use.transform.apply(mix_corners(uv_of(*t.a, set), uv_of(*t.b, set), uv_of(*t.c, set), u, v)));
     }
     if (geometry.vertex_colours) alpha *= mix_corners(colour_of(*t.a), colour_of(*t.b), colour_of(*t.c), u, v).a;
-    return alpha >= material.alpha_cutoff;
+    if (material.alpha_mode == AlphaMode::blend) return alpha;
+    return alpha >= mask_threshold(material.alpha_cutoff) ? 1.0f : 0.0f;
 }
 
 void TraceGeometry::filter(const RTCFilterFunctionNArguments* arguments) {
@@ -97,13 +102,17 @@ void TraceGeometry::filter(const RTCFilterFunctionNArguments* arguments) {
         if (arguments->valid[i] != -1) continue;
         const uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, i);
         const float u = RTCHitN_u(arguments->hit, arguments->N, i), v = RTCHitN_v(arguments->hit, arguments->N, i);
-        if (!data->owner->opaque(*data->geometry, triangle, u, v)) arguments->valid[i] = 0;
+        const float coverage = data->owner->coverage(*data->geometry, triangle, u, v);
+        const uint32_t seed = RTCRayN_id(arguments->ray, arguments->N, i);
+        const uint32_t geometry = uint32_t(data - data->owner->filter_data_.data());
+        const float threshold = seed ? coverage_threshold(hash_combine(hash_combine(seed, geometry), triangle)) : 0.5f;
+        if (coverage < threshold) arguments->valid[i] = 0;
     }
 }
 
 glm::vec3 TraceGeometry::emission(const Geometry& geometry, uint32_t triangle, float u, float v) const {
     const TraceMaterial& material = materials_[size_t(geometry.material)];
-    if (!material.emissive || !opaque(geometry, triangle, u, v)) return glm::vec3(0);
+    if (!material.emissive) return glm::vec3(0);
     const auto& use = material.emission_texture;
     if (!use.texture) return material.emission;
     const Corners t = corners(geometry, triangle);
@@ -112,22 +121,30 @@ glm::vec3 TraceGeometry::emission(const Geometry& geometry, uint32_t triangle, f
     return material.emission * glm::vec3(use.texture->sample(use.transform.apply(uv)));
 }
 
+glm::vec3 TraceGeometry::expected_emission(const Geometry& geometry, uint32_t triangle, float u, float v) const {
+    return coverage(geometry, triangle, u, v) * emission(geometry, triangle, u, v);
+}
+
 glm::vec3 TraceGeometry::largest_emission(const Geometry& geometry) const {
     const TraceMaterial& material = materials_[size_t(geometry.material)];
-    if (!material.emission_texture.texture) return material.emission;
-    return material.emission * glm::vec3(material.emission_texture.texture->largest());
+    const float most = material.alpha_mode == AlphaMode::blend ? material.base_colour.a : 1.0f;
+    if (!material.emission_texture.texture) return most * material.emission;
+    return most * material.emission * glm::vec3(material.emission_texture.texture->largest());
 }
 
 glm::vec3 TraceGeometry::mean_emission(const Geometry& geometry, uint32_t triangle) const {
     const TraceMaterial& material = materials_[size_t(geometry.material)];
-    if (!material.emission_texture.texture && !material.alpha_mask) return material.emission;
+    const bool even_alpha =
+        material.alpha_mode == AlphaMode::blend && !material.base_colour_texture.texture && !geometry.vertex_colours;
+    if (!material.emission_texture.texture && (material.alpha_mode == AlphaMode::opaque || even_alpha))
+        return largest_emission(geometry);
     // A fixed grid of points; large textures on large triangles are only estimated, which costs noise, not truth.
     constexpr int k_steps = 8;
     glm::vec3 sum(0);
     for (int i = 0; i < k_steps; ++i) {
         for (int j = 0; j < k_steps; ++j) {
             float root = std::sqrt((float(i) + 0.5f) / k_steps), along = (float(j) + 0.5f) / k_steps;
-            sum += emission(geometry, triangle, root * (1 - along), root * along);
+            sum += expected_emission(geometry, triangle, root * (1 - along), root * along);
         }
     }
     return sum / float(k_steps * k_steps);

@@ -52,10 +52,14 @@ class TraceGeometry {
     TraceGeometry(const TraceGeometry&) = delete;
     TraceGeometry& operator=(const TraceGeometry&) = delete;
 
-    /// The nearest hit of a ray with unit direction. Alpha-tested texels are passed through.
-    Hit intersect(const glm::vec3& origin, const glm::vec3& direction, float length) const;
+    /// The nearest hit of a ray with unit direction. Where the alpha test fails it passes through, and blended surfaces
+    /// stop it with the probability alpha: a draw of its own for each triangle, from the ray's `coverage_seed`. Seed 0
+    /// stops it from alpha ½ on.
+    Hit intersect(const glm::vec3& origin, const glm::vec3& direction, float length, uint32_t coverage_seed = 0) const;
     /// Whether anything lies on origin + t·direction for 0 < t < length (in units of the direction's length).
-    bool occluded(const glm::vec3& origin, const glm::vec3& direction, float length) const;
+    bool occluded(const glm::vec3& origin, const glm::vec3& direction, float length, uint32_t coverage_seed = 0) const;
+    /// Whether any material is blended, so that seeds matter.
+    bool blended() const { return blended_; }
     Surface surface(const Hit& hit, const glm::vec3& ray_direction) const;
     /// The same in four steps, each of which asks for the memory that the next one reads: hits are scattered over the
     /// scene, and a caller with several paths at hand takes each step for all of them, so that their ways from memory
@@ -78,9 +82,11 @@ class TraceGeometry {
     const std::vector<Geometry>& geometries() const { return geometries_; }
     const Bounds& bounds() const { return bounds_; }
     bool emissive(const Geometry& geometry) const { return materials_[size_t(geometry.material)].emissive; }
-    /// Emitted radiance at a point of a triangle; 0 where its alpha test fails.
+    /// Emitted radiance where a ray hit a triangle.
     glm::vec3 emission(const Geometry& geometry, uint32_t triangle, float u, float v) const;
-    /// The mean over the triangle and the largest value there can be, for sampling. The mean is approximate.
+    /// The same at a point that no ray has hit: times its coverage, which is 0 where the alpha test fails.
+    glm::vec3 expected_emission(const Geometry& geometry, uint32_t triangle, float u, float v) const;
+    /// The mean of it over the triangle and the largest value there can be, for sampling. The mean is approximate.
     glm::vec3 mean_emission(const Geometry& geometry, uint32_t triangle) const;
     glm::vec3 largest_emission(const Geometry& geometry) const;
 
@@ -95,7 +101,8 @@ class TraceGeometry {
         glm::vec4 base_colour;
         glm::vec3 emission;
         float metallic, roughness, normal_scale, alpha_cutoff;
-        bool alpha_mask, emissive;
+        AlphaMode alpha_mode;
+        bool emissive;
         /// Whether the texture's taps are the base colour's: one set of them then serves all.
         bool shared_metallic_roughness = false, shared_normal = false;
         TextureUse base_colour_texture, metallic_roughness_texture, normal_texture, emission_texture;
@@ -109,7 +116,7 @@ class TraceGeometry {
     void build();
     TextureUse texture_use(const TextureSlot& slot) const;
     Corners corners(const Geometry& geometry, uint32_t triangle) const;
-    bool opaque(const Geometry& geometry, uint32_t triangle, float u, float v) const;
+    float coverage(const Geometry& geometry, uint32_t triangle, float u, float v) const;
     static void filter(const RTCFilterFunctionNArguments* arguments);
 
     std::vector<ReferenceTexture> textures_;
@@ -121,6 +128,7 @@ class TraceGeometry {
     };
     std::vector<FilterData> filter_data_;
     Bounds bounds_;
+    bool blended_ = false;
     RTCDevice device_ = nullptr;
     RTCScene scene_ = nullptr;
 };

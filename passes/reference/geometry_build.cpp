@@ -51,7 +51,8 @@ void TraceGeometry::add_material(const Material& material, bool normal_maps) {
     out.roughness = material.roughness;
     out.normal_scale = material.normal_scale;
     out.alpha_cutoff = material.alpha_cutoff;
-    out.alpha_mask = material.alpha_mask;
+    out.alpha_mode = material.alpha_mode;
+    blended_ = blended_ || material.alpha_mode == AlphaMode::blend;
     out.emissive = material.is_emissive();
     out.base_colour_texture = texture_use(material.base_colour_texture);
     out.metallic_roughness_texture = texture_use(material.metallic_roughness_texture);
@@ -126,7 +127,7 @@ void TraceGeometry::build() {
             rtcSetSharedGeometryBuffer(embree, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, geometry.indices.data(), 0,
                                        3 * sizeof(uint32_t), geometry.triangle_count());
         }
-        if (materials_[size_t(geometry.material)].alpha_mask) {
+        if (materials_[size_t(geometry.material)].alpha_mode != AlphaMode::opaque) {
             rtcSetGeometryUserData(embree, &filter_data_[i]);
             rtcSetGeometryIntersectFilterFunction(embree, &TraceGeometry::filter);
             rtcSetGeometryOccludedFilterFunction(embree, &TraceGeometry::filter);

@@ -1,6 +1,7 @@
 #include "reference/integrator.h"
 
 #include "scene/camera_ray.h"
+#include "scene/lobe_albedo.h"
 
 #include <limits>
 
@@ -17,23 +18,38 @@ constexpr size_t k_all_lights = 4;
 /// Which part a light's first scattering belongs to.
 enum Kind { k_punctual, k_emitted, k_environment };
 
+/// Rays that may be traced at one point of a sampler's sequence; the lights' come last.
+enum CoverageRay : uint32_t { k_camera_ray, k_diffuse_ray, k_gloss_ray, k_emitter_ray, k_sky_ray, k_light_ray };
+
 } // namespace
 
 /// The surface's two lobes as seen from one direction, ready to be evaluated and drawn from.
 struct Integrator::Lobes {
     glm::vec3 n, v;
     glm::vec3 geometric;
-    glm::vec3 diffuse; ///< ρ/π
+    glm::vec3 lambert; ///< ρ/π
     glm::vec3 f0;
-    float nv, alpha;
+    float nv, alpha, roughness;
     bool glossy;
+    MaterialModel model;
+    glm::vec3 limit{1}; ///< of the diffuse lobe, seen from v
     Basis basis;
 
-    Lobes(const Surface& surface, const glm::vec3& to_viewer, bool diffuse_only)
+    Lobes(const Surface& surface, const glm::vec3& to_viewer, const TraceScene& scene)
         : n(surface.shading), v(to_viewer), geometric(surface.geometric),
-          diffuse(brdf_diffuse(surface.base_colour, surface.metallic)),
+          lambert(brdf_diffuse(surface.base_colour, surface.metallic)),
           f0(brdf_f0(surface.base_colour, surface.metallic)), nv(glm::dot(n, v)), alpha(brdf_alpha(surface.roughness)),
-          glossy(!diffuse_only && nv > 0), basis(n) {}
+          roughness(surface.roughness), glossy(!scene.diffuse_only && nv > 0), model(scene.material_model), basis(n) {
+        if (model == MaterialModel::gltf && nv > 0) limit = diffuse_limit(k_pi * lambert, f0, roughness, nv);
+    }
+
+    /// The diffuse lobe toward l, nl = n·l above 0.
+    glm::vec3 diffuse(const glm::vec3& l, float nl) const {
+        if (model == MaterialModel::plain) return lambert;
+        const glm::vec3 weighted = lambert * fresnel_diffuse_weight(v, glm::normalize(v + l));
+        if (model == MaterialModel::appendix_b || nv <= 0) return weighted;
+        return weighted * glm::min(limit, diffuse_limit(k_pi * lambert, f0, roughness, nl));
+    }
 
     struct Gloss {
         glm::vec3 value{0};
@@ -60,11 +76,11 @@ struct Integrator::Lobes {
 };
 
 TraceScene::TraceScene(const Shot& shot, const ShotState& state, const ReferenceSettings& s)
-    : geometry(shot, state.scene, s.diffuse_only || shot.diffuse_only), emitters(geometry),
-      environment(shot.environment), lights(state.scene.lights), camera(state.camera),
+    : geometry(shot, state.scene, shot.diffuse_only), emitters(geometry), environment(shot.environment),
+      lights(state.scene.lights), camera(state.camera),
       camera_basis(bounce::camera_basis(camera.position, camera.target, camera.up)),
       tan_half_vfov(std::tan(0.5f * camera.vfov)), size(float(shot.width), float(shot.height)), settings(s),
-      diffuse_only(s.diffuse_only || shot.diffuse_only),
+      diffuse_only(s.diffuse_only || shot.diffuse_only), material_model(shot.effective_model()),
       occlusion_distance(s.occlusion_distance * shot_facts(shot).bounds_over_animation.diagonal()) {}
 
 float TraceScene::near_visibility(float distance) const {
@@ -77,16 +93,16 @@ bool TraceScene::anything_to_meet() const {
     return environment.present() || !emitters.empty() || lights.any_soft();
 }
 
-Hit Integrator::trace(const glm::vec3& origin, const glm::vec3& direction) {
+Hit Integrator::trace(const glm::vec3& origin, const glm::vec3& direction, uint32_t coverage_seed) {
     ++rays_;
     if (record_) record_->push_back({origin, k_infinity, direction, false});
-    return scene_.geometry.intersect(origin, direction, k_infinity);
+    return scene_.geometry.intersect(origin, direction, k_infinity, coverage_seed);
 }
 
-bool Integrator::blocked(const glm::vec3& origin, const glm::vec3& to_end, float length) {
+bool Integrator::blocked(const glm::vec3& origin, const glm::vec3& to_end, float length, uint32_t coverage_seed) {
     ++rays_;
     if (record_) record_->push_back({origin, length, to_end, true});
-    return scene_.geometry.occluded(origin, to_end, length);
+    return scene_.geometry.occluded(origin, to_end, length, coverage_seed);
 }
 
 float Integrator::light_probability(size_t i, const glm::vec3& x) const {
@@ -109,7 +125,7 @@ void Integrator::sample_lights(const Surface& surface, PixelSampler& sampler, si
         if (s.irradiance == glm::vec3(0)) return;
         // A little short of the light, in case it touches a surface.
         const float length = s.distance * (1 - 1e-6f);
-        if (blocked(origin, s.direction, length)) return;
+        if (blocked(origin, s.direction, length, coverage_seed(sampler, k_light_ray + uint32_t(i)))) return;
         add(k_punctual, s.direction, s.irradiance / probability, s.density * probability);
     };
     if (lights.size() <= most_lights) {
@@ -133,7 +149,7 @@ void Integrator::sample_lights(const Surface& surface, PixelSampler& sampler, si
         const Emitters::Sample s = scene_.emitters.sample(scene_.geometry, origin, choice, sampler.next_pair());
         if (s.density > 0 && s.radiance != glm::vec3(0) && glm::dot(s.direction, surface.geometric) > 0 &&
             glm::dot(s.direction, surface.shading) > 0) {
-            if (!blocked(origin, s.position - origin, 1))
+            if (!blocked(origin, s.position - origin, 1, coverage_seed(sampler, k_emitter_ray)))
                 add(k_emitted, s.direction, s.radiance / s.density, s.density);
         }
     }
@@ -143,7 +159,7 @@ void Integrator::sample_lights(const Surface& surface, PixelSampler& sampler, si
         const glm::vec3 l = scene_.environment.sample(choice, sampler.next_pair(), density);
         if (glm::dot(l, surface.geometric) > 0 && glm::dot(l, surface.shading) > 0) {
             const glm::vec3 radiance = scene_.environment.radiance(l);
-            if (radiance != glm::vec3(0) && !blocked(origin, l, k_infinity)) {
+            if (radiance != glm::vec3(0) && !blocked(origin, l, k_infinity, coverage_seed(sampler, k_sky_ray))) {
                 add(k_environment, l, radiance / density, density);
             }
         }
@@ -195,19 +211,19 @@ bool Integrator::extend(Path& path, const Surface& surface) {
     const glm::vec2 u = path.sampler.next_pair(), chances = path.sampler.next_pair();
     const float choice = chances.x, survival = chances.y;
 
-    const Lobes lobes(surface, -path.direction, scene_.diffuse_only);
+    const Lobes lobes(surface, -path.direction, scene_);
     float gloss_share = 0;
     if (lobes.glossy) {
         // Schlick at the viewing angle is near enough for a choice between lobes.
         const float m = 1 - std::min(lobes.nv, 1.0f), m2 = m * m;
         const float specular = luminance(lobes.f0 + (1.0f - lobes.f0) * (m2 * m2 * m));
-        const float diffuse = luminance(lobes.diffuse) * k_pi;
+        const float diffuse = luminance(lobes.lambert) * k_pi;
         gloss_share = diffuse > 0 ? std::clamp(specular / (specular + diffuse), 0.1f, 0.9f) : 1.0f;
     }
     auto evaluate = [&](const glm::vec3& l, float nl, float& density) {
         const Lobes::Gloss gloss = lobes.gloss(l, nl);
         density = gloss_share * gloss.density + (1 - gloss_share) * nl / k_pi;
-        return lobes.diffuse + gloss.value;
+        return lobes.diffuse(l, nl) + gloss.value;
     };
     sample_lights(
         surface, path.sampler, k_all_lights, [&](Kind, const glm::vec3& l, const glm::vec3& irradiance, float density) {
@@ -233,7 +249,7 @@ bool Integrator::extend(Path& path, const Surface& surface) {
         path.throughput /= probability;
     }
     const glm::vec3 origin = surface.origin();
-    path.hit = trace(origin, l);
+    path.hit = trace(origin, l, coverage_seed(path.sampler, k_diffuse_ray));
     scene_.geometry.prefetch_indices(path.hit);
     meet_lights(origin, l, path.hit, density, k_all_lights,
                 [&](Kind, const glm::vec3& met) { path.radiance += path.throughput * met; });
@@ -291,7 +307,8 @@ void Integrator::begin(int x, int y, PixelSampler& sampler, PixelSample& out, st
     const glm::vec2 jitter = sampler.next_pair();
     const glm::vec3 camera_direction =
         camera_ray(scene_.camera_basis, scene_.tan_half_vfov, scene_.size, glm::vec2(x, y) + jitter);
-    const Hit first = trace(camera_ray_start(scene_.camera, scene_.camera_basis, camera_direction), camera_direction);
+    const Hit first = trace(camera_ray_start(scene_.camera, scene_.camera_basis, camera_direction), camera_direction,
+                            coverage_seed(sampler, k_camera_ray));
     if (!first.valid()) {
         if (scene_.environment.present()) add(emission, scene_.environment.radiance(camera_direction));
         open = open_near = 1;
@@ -299,7 +316,7 @@ void Integrator::begin(int x, int y, PixelSampler& sampler, PixelSample& out, st
     }
     const glm::vec2 u_diffuse = sampler.next_pair(), u_gloss = sampler.next_pair();
     const Surface surface = scene_.geometry.surface(first, camera_direction);
-    const Lobes lobes(surface, -camera_direction, scene_.diffuse_only);
+    const Lobes lobes(surface, -camera_direction, scene_);
     const glm::vec3 origin = surface.origin();
     const bool later_orders = scene_.settings.bounces != 0;
     add(emission, surface.emission);
@@ -307,21 +324,18 @@ void Integrator::begin(int x, int y, PixelSampler& sampler, PixelSample& out, st
     // The diffuse path also measures ambient occlusion: its first ray has the density cosθ/π.
     const glm::vec3 l = lobes.draw_diffuse(u_diffuse);
     if (const float nl = glm::dot(lobes.n, l); nl > 0 && lobes.above(l)) {
-        const Hit hit = trace(origin, l);
+        const Hit hit = trace(origin, l, coverage_seed(sampler, k_diffuse_ray));
         if (later_orders) scene_.geometry.prefetch_indices(hit);
         open = hit.valid() ? 0.0f : 1.0f;
         open_near = hit.valid() ? scene_.near_visibility(hit.distance) : 1.0f;
+        const glm::vec3 weight = lobes.diffuse(l, nl) * k_pi;
         meet_lights(origin, l, hit, nl / k_pi, k_all_lights_at_camera, [&](Kind kind, const glm::vec3& met) {
             add_irradiance(kind, k_pi * met);
-            add_first(kind, lobes.diffuse * (k_pi * met));
+            add_first(kind, weight * met);
         });
         if (later_orders && hit.valid()) {
-            paths.push_back({.sampler = sampler,
-                             .block = 1,
-                             .hit = hit,
-                             .direction = l,
-                             .out = &out,
-                             .weight = lobes.diffuse * k_pi});
+            paths.push_back(
+                {.sampler = sampler, .block = 1, .hit = hit, .direction = l, .out = &out, .weight = weight});
         }
     }
     if (lobes.glossy) {
@@ -330,7 +344,7 @@ void Integrator::begin(int x, int y, PixelSampler& sampler, PixelSample& out, st
         const Lobes::Gloss gloss = lobes.gloss(g, nl);
         if (nl > 0 && lobes.above(g) && gloss.density > 0 && (later_orders || scene_.anything_to_meet())) {
             const glm::vec3 weight = gloss.value * (nl / gloss.density);
-            const Hit hit = trace(origin, g);
+            const Hit hit = trace(origin, g, coverage_seed(sampler, k_gloss_ray));
             if (later_orders) scene_.geometry.prefetch_indices(hit);
             meet_lights(origin, g, hit, gloss.density, k_all_lights_at_camera,
                         [&](Kind kind, const glm::vec3& met) { add_first(kind, weight * met); });
@@ -348,7 +362,7 @@ void Integrator::begin(int x, int y, PixelSampler& sampler, PixelSample& out, st
                       const float gloss_weight = density > 0 ? mis_weight(density, gloss.density) : 1.0f;
                       const glm::vec3 e = irradiance * (nl * diffuse_weight);
                       add_irradiance(kind, e);
-                      add_first(kind, lobes.diffuse * e + gloss.value * irradiance * (nl * gloss_weight));
+                      add_first(kind, lobes.diffuse(to_light, nl) * e + gloss.value * irradiance * (nl * gloss_weight));
                   });
 }
 

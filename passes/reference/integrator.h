@@ -29,7 +29,8 @@ struct TraceScene {
     float tan_half_vfov;
     glm::vec2 size;
     ReferenceSettings settings;
-    bool diffuse_only;
+    bool diffuse_only; ///< no microfacet lobe
+    MaterialModel material_model;
     float occlusion_distance; ///< metres
 
     /// The visibility that out.ambient_occlusion_dmax takes of an occluder at `distance`.
@@ -67,8 +68,12 @@ class Integrator {
   private:
     struct Lobes;
     struct Path;
-    Hit trace(const glm::vec3& origin, const glm::vec3& direction);
-    bool blocked(const glm::vec3& origin, const glm::vec3& to_end, float length);
+    Hit trace(const glm::vec3& origin, const glm::vec3& direction, uint32_t coverage_seed);
+    bool blocked(const glm::vec3& origin, const glm::vec3& to_end, float length, uint32_t coverage_seed);
+    /// Of a ray that is traced at this point of the sampler's sequence; `which` tells rays of one point apart.
+    uint32_t coverage_seed(const PixelSampler& sampler, uint32_t which) const {
+        return scene_.geometry.blended() ? sampler.key(which) : 0;
+    }
     template <class Add>
     void sample_lights(const Surface& surface, PixelSampler& sampler, size_t most_lights, Add&& add);
     template <class Add>

@@ -23,21 +23,6 @@ struct Basis {
     glm::vec3 to_local(const glm::vec3& v) const { return {glm::dot(v, x), glm::dot(v, y), glm::dot(v, z)}; }
 };
 
-/// Area-preserving map of the unit square to the unit disc (Shirley & Chiu 1997).
-inline glm::vec2 concentric_disc(const glm::vec2& u) {
-    glm::vec2 p = 2.0f * u - 1.0f;
-    if (p.x == 0 && p.y == 0) return {0, 0};
-    float radius, angle;
-    if (std::abs(p.x) > std::abs(p.y)) {
-        radius = p.x;
-        angle = k_pi / 4 * (p.y / p.x);
-    } else {
-        radius = p.y;
-        angle = k_pi / 2 - k_pi / 4 * (p.x / p.y);
-    }
-    return radius * glm::vec2(std::cos(angle), std::sin(angle));
-}
-
 /// Density cosθ/π about +z.
 inline glm::vec3 cosine_hemisphere(const glm::vec2& u) {
     glm::vec2 d = concentric_disc(u);
@@ -58,25 +43,6 @@ struct Cone {
         return {d.x * scale, d.y * scale, 1.0f - m};
     }
 };
-
-/// A microfacet normal as seen from `v` (both in the surface's basis, v.z > 0): GGX's visible normals (Heitz 2018).
-inline glm::vec3 visible_normal(const glm::vec3& v, float alpha, const glm::vec2& u) {
-    glm::vec3 stretched = glm::normalize(glm::vec3(alpha * v.x, alpha * v.y, v.z));
-    float length = stretched.x * stretched.x + stretched.y * stretched.y;
-    glm::vec3 t1 = length > 0 ? glm::vec3(-stretched.y, stretched.x, 0) / std::sqrt(length) : glm::vec3(1, 0, 0);
-    glm::vec3 t2 = glm::cross(stretched, t1);
-    glm::vec2 d = concentric_disc(u);
-    float s = 0.5f * (1.0f + stretched.z);
-    d.y = (1.0f - s) * std::sqrt(std::max(0.0f, 1.0f - d.x * d.x)) + s * d.y;
-    glm::vec3 n = d.x * t1 + d.y * t2 + std::sqrt(std::max(0.0f, 1.0f - d.x * d.x - d.y * d.y)) * stretched;
-    return glm::normalize(glm::vec3(alpha * n.x, alpha * n.y, std::max(1e-7f, n.z)));
-}
-
-/// The density of the direction that reflects v about a visible normal h: D·G₁/(4·nv), with nv divided out.
-inline float visible_normal_density(float density_of_h, float nv, float alpha) {
-    float a2 = alpha * alpha;
-    return density_of_h * 0.5f / (nv + std::sqrt(a2 + (1.0f - a2) * nv * nv));
-}
 
 /// The power heuristic (Veach 1997) for the strategy of density `own`.
 inline float mis_weight(float own, float other) {

@@ -19,8 +19,9 @@ constexpr std::array<std::string_view, 2> k_occlusion_falloffs{"none", "quadrati
 
 struct ReferenceSettings {
     int bounces = k_unlimited_bounces; ///< scattering orders after the first; 0 = the first only, −1 = all
-    bool diffuse_only =
-        false; ///< every material is Lambert with ρ = base colour·(1 − metallic); a shot's own flag does the same
+    /// No microfacet lobe: the diffuse lobe of the shot's material model alone, which is Lambert with
+    /// ρ = base colour·(1 − metallic) in the plain one. (A shot's own flag makes every material Lambert.)
+    bool diffuse_only = false;
     float occlusion_distance = 0.1f; ///< d_max of out.ambient_occlusion_dmax, as a share of the scene's diagonal
     OcclusionFalloff occlusion_falloff = OcclusionFalloff::none;
     /// Paths end by Russian roulette (unbiased) only after this many bounces, and only when their throughput has fallen

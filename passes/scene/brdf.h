@@ -1,5 +1,6 @@
 #pragma once
-// The surface model of the ground rules on the CPU: f(v, l) = rho / pi + D·V·F, a plain sum.
+// The surface model of the ground rules on the CPU: f(v, l) = w·rho / pi + D·V·F, where w = 1 in the plain sum, and
+// 1 − F_d(v·h) with the dielectric's F_d in glTF 2.0's own model (appendix B, "Metal BRDF and Dielectric BRDF").
 //   rho = base_colour·(1 − metallic),  F0 = mix(0.04, base_colour, metallic),  alpha = roughness²
 //   D: GGX (Walter et al. 2007, Eq. 33);  V: height-correlated Smith visibility (Heitz 2014, Eq. 99, over 4·nl·nv);
 //   F: Schlick 1994.
@@ -53,6 +54,11 @@ inline float schlick_weight(const glm::vec3& v, const glm::vec3& h) {
     return m * m * m * m * m;
 }
 
+/// Appendix B's weight of the diffuse lobe: 1 − F(v·h) of the dielectric.
+inline float fresnel_diffuse_weight(const glm::vec3& v, const glm::vec3& h) {
+    return (1.0f - k_dielectric_f0) * (1.0f - schlick_weight(v, h));
+}
+
 /// The microfacet lobe without the cosine; 0 where the light or the viewer is below the horizon.
 inline glm::vec3 brdf_specular(const glm::vec3& n, const glm::vec3& v, const glm::vec3& l, const glm::vec3& base_colour,
                                float metallic, float roughness) {
@@ -64,6 +70,43 @@ inline glm::vec3 brdf_specular(const glm::vec3& n, const glm::vec3& v, const glm
     glm::vec3 f0 = brdf_f0(base_colour, metallic);
     glm::vec3 fresnel = f0 + (1.0f - f0) * schlick_weight(v, h);
     return fresnel * (ggx_density(n, h, alpha) * smith_visibility(nl, nv, alpha));
+}
+
+/// Area-preserving map of the unit square to the unit disc (Shirley & Chiu 1997).
+inline glm::vec2 concentric_disc(const glm::vec2& u) {
+    glm::vec2 p = 2.0f * u - 1.0f;
+    if (p.x == 0 && p.y == 0) return {0, 0};
+    float radius, angle;
+    if (std::abs(p.x) > std::abs(p.y)) {
+        radius = p.x;
+        angle = k_pi / 4 * (p.y / p.x);
+    } else {
+        radius = p.y;
+        angle = k_pi / 2 - k_pi / 4 * (p.x / p.y);
+    }
+    return radius * glm::vec2(std::cos(angle), std::sin(angle));
+}
+
+/// A microfacet normal as seen from `v` (both in the surface's basis, v.z > 0): GGX's visible normals (Heitz 2018).
+/// `d` is uniform over the unit disc; its first coordinate is the one across v.
+inline glm::vec3 visible_normal_of(const glm::vec3& v, float alpha, glm::vec2 d) {
+    glm::vec3 stretched = glm::normalize(glm::vec3(alpha * v.x, alpha * v.y, v.z));
+    float length = stretched.x * stretched.x + stretched.y * stretched.y;
+    glm::vec3 t1 = length > 0 ? glm::vec3(-stretched.y, stretched.x, 0) / std::sqrt(length) : glm::vec3(1, 0, 0);
+    glm::vec3 t2 = glm::cross(stretched, t1);
+    float s = 0.5f * (1.0f + stretched.z);
+    d.y = (1.0f - s) * std::sqrt(std::max(0.0f, 1.0f - d.x * d.x)) + s * d.y;
+    glm::vec3 n = d.x * t1 + d.y * t2 + std::sqrt(std::max(0.0f, 1.0f - d.x * d.x - d.y * d.y)) * stretched;
+    return glm::normalize(glm::vec3(alpha * n.x, alpha * n.y, std::max(1e-7f, n.z)));
+}
+inline glm::vec3 visible_normal(const glm::vec3& v, float alpha, const glm::vec2& u) {
+    return visible_normal_of(v, alpha, concentric_disc(u));
+}
+
+/// The density of the direction that reflects v about a visible normal h: D·G₁/(4·nv), with nv divided out.
+inline float visible_normal_density(float density_of_h, float nv, float alpha) {
+    float a2 = alpha * alpha;
+    return density_of_h * 0.5f / (nv + std::sqrt(a2 + (1.0f - a2) * nv * nv));
 }
 
 /// The shading normal turned toward the viewer. The surface's own (geometric) normal decides which side is seen, so

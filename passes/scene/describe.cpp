@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <functional>
 
 namespace bounce {
 
@@ -48,9 +49,42 @@ void add_needs(const SceneFacts& facts, const Shot& shot, std::vector<std::strin
     sort(facts.environment, "environment light", "no environment");
     sort(facts.glossy_materials > 0, "specular reflection",
          shot.diffuse_only ? "the shot is diffuse only" : "no glossy material");
-    sort(facts.alpha_tested_materials > 0, "alpha tests", "no alpha-tested material");
+    sort(facts.alpha_tested_materials + facts.blended_materials > 0, "alpha tests",
+         "no alpha-tested or blended material");
     sort(facts.dynamic_instances > 0, "updates of geometry each frame", "no geometry moves");
     sort(facts.animated_lights, "updates of light each frame", facts.lights() ? "no light moves" : "no lights");
+}
+
+/// The names of the used materials that are blended.
+std::vector<std::string> blended_materials(const Scene& scene) {
+    std::vector<bool> used(scene.materials.size(), false);
+    for (const Node& node : scene.nodes) {
+        if (node.mesh < 0) continue;
+        for (const Primitive& primitive : scene.meshes[size_t(node.mesh)].primitives)
+            used[size_t(primitive.material)] = true;
+    }
+    std::vector<std::string> names;
+    for (size_t m = 0; m < used.size(); ++m)
+        if (used[m] && scene.materials[m].alpha_mode == AlphaMode::blend) names.push_back(scene.materials[m].name);
+    return names;
+}
+
+/// Which materials are blended, and how far from the truth each kind of graph takes them.
+void add_blended(const Scene& scene, const std::function<void(const char*, const std::string&)>& line) {
+    std::vector<std::string> names = blended_materials(scene);
+    if (names.empty()) return;
+    constexpr size_t k_named = 8;
+    std::string more = names.size() > k_named ? fmt::format(" and {} more", names.size() - k_named) : "";
+    if (names.size() > k_named) names.resize(k_named);
+    line("blended", join(names, ", ") + more);
+    line("  reference", "each ray passes a surface with probability 1 − alpha (camera, shadow and bounce rays)");
+    line("  all graphs", "G-buffer, shadow maps and reflective shadow maps hold it in a share alpha of their texels, "
+                         "by a hash of texel and triangle: right in the mean, with grain");
+    line("  ldm graphs", "layered depth maps hold it in a share alpha of their texels, likewise");
+    line("  voxels",
+         "lrsm, dvs, vct and voxel_ao hold it in a share alpha of the voxel columns across it, by a hash of "
+         "column and draw: layers of one draw nearer than 4 voxels count as one");
+    line("  edge mask", "takes a surface as there from alpha 0.5 on");
 }
 
 } // namespace
@@ -74,8 +108,12 @@ std::string describe_scene(const Shot& shot) {
     line("triangles",
          fmt::format("{} drawn, in {} instances", with_commas(facts.triangles), with_commas(facts.instances)));
     line("vertices", with_commas(facts.vertices));
-    line("materials", fmt::format("{} used: {} glossy, {} emissive, {} alpha-tested", facts.materials,
-                                  facts.glossy_materials, facts.emissive_materials, facts.alpha_tested_materials));
+    line("materials", fmt::format("{} used: {} glossy, {} emissive, {} alpha-tested, {} blended", facts.materials,
+                                  facts.glossy_materials, facts.emissive_materials, facts.alpha_tested_materials,
+                                  facts.blended_materials));
+    add_blended(shot.scene, line);
+    line("model", shot.diffuse_only ? "Lambert: the shot is diffuse only"
+                                    : std::string(k_material_models[size_t(shot.material_model)]));
     line("textures", facts.textures == 0 ? "none"
                                          : fmt::format("{}, {} (8-bit RGBA, without mips)", facts.textures,
                                                        format_bytes(double(facts.texture_bytes))));

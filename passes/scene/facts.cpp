@@ -37,7 +37,8 @@ void count_materials(const Scene& scene, const std::vector<bool>& used, bool dif
         const Material& material = scene.materials[m];
         ++facts.materials;
         facts.emissive_materials += material.is_emissive();
-        facts.alpha_tested_materials += material.alpha_mask;
+        facts.alpha_tested_materials += material.alpha_mode == AlphaMode::mask;
+        facts.blended_materials += material.alpha_mode == AlphaMode::blend;
         facts.glossy_materials += !diffuse_only && is_glossy(scene, material);
         for (const TextureSlot* slot : {&material.base_colour_texture, &material.metallic_roughness_texture,
                                         &material.normal_texture, &material.emission_texture})

@@ -25,9 +25,6 @@ class MaterialReader {
     void read_all() {
         for (const tinygltf::Material& from : source_.model.materials)
             read(from);
-        if (blended_)
-            scene_.notes.push_back(fmt::format("alphaMode BLEND is read as MASK at 0.5 ({} material{})", blended_,
-                                               blended_ == 1 ? "" : "s"));
         if (far_uv_sets_)
             scene_.notes.push_back(fmt::format("{} texture use{} of TEXCOORD_2 or above read TEXCOORD_0 instead",
                                                far_uv_sets_, far_uv_sets_ == 1 ? "" : "s"));
@@ -77,11 +74,11 @@ class MaterialReader {
             for (int c = 0; c < 3; ++c)
                 to.emission[c] = std::max(float(from.emissiveFactor[size_t(c)]), 0.0f) * strength;
 
-        if (from.alphaMode == "MASK" || from.alphaMode == "BLEND") {
-            to.alpha_mask = true;
-            bool blend = from.alphaMode == "BLEND";
-            to.alpha_cutoff = blend ? 0.5f : std::max(float(from.alphaCutoff), 0.0f);
-            blended_ += blend;
+        if (from.alphaMode == "MASK") {
+            to.alpha_mode = AlphaMode::mask;
+            to.alpha_cutoff = std::max(float(from.alphaCutoff), 0.0f);
+        } else if (from.alphaMode == "BLEND") {
+            to.alpha_mode = AlphaMode::blend;
         } else if (from.alphaMode != "OPAQUE") {
             throw Error(fmt::format("{}: materials[{}].alphaMode '{}' is none of OPAQUE, MASK, BLEND", source_.where(),
                                     index, from.alphaMode.substr(0, 40)));
@@ -93,7 +90,6 @@ class MaterialReader {
     const GltfSource& source_;
     Scene& scene_;
     TextureTable textures_;
-    int blended_ = 0;
     int far_uv_sets_ = 0;
 };
 

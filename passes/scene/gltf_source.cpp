@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 #include <map>
 #include <set>
+#include <string_view>
+#include <utility>
 
 namespace bounce {
 
@@ -22,6 +24,17 @@ namespace {
 // KHR_mesh_quantization only allows more component types, and every type is read.
 const std::set<std::string> k_supported{"KHR_lights_punctual", "KHR_materials_emissive_strength",
                                         "KHR_texture_transform", "KHR_mesh_quantization"};
+
+// What a material loses with an extension that is not read.
+constexpr std::pair<std::string_view, std::string_view> k_unread_materials[]{
+    {"KHR_materials_unlit", "shaded by the light that falls on it, not shown as painted"},
+    {"KHR_materials_pbrSpecularGlossiness",
+     "with its metallic-roughness values only (white metal of roughness 1 if it has none)"},
+    {"KHR_materials_ior", "with the index of refraction 1.5 (F0 = 0.04)"},
+    {"KHR_materials_specular", "with the whole, white specular reflection of the index of refraction 1.5"},
+    {"KHR_materials_transmission", "opaque"},
+    {"KHR_materials_diffuse_transmission", "opaque"},
+};
 
 // What the parser counts in is an int.
 constexpr size_t k_max_buffer = size_t(1) << 31;
@@ -40,14 +53,36 @@ std::vector<std::string> text_list(const json& root, const char* key, ErrorList&
     return out;
 }
 
+/// By name, how many materials use each extension that is not read.
+std::map<std::string, size_t> material_extensions(const json& root) {
+    std::map<std::string, size_t> count;
+    auto materials = root.find("materials");
+    if (materials == root.end() || !materials->is_array()) return count;
+    for (const json& material : *materials) {
+        if (!material.is_object() || !material.contains("extensions") || !material["extensions"].is_object()) continue;
+        for (const auto& [name, value] : material["extensions"].items())
+            if (!k_supported.contains(name)) ++count[name];
+    }
+    return count;
+}
+
 void check_extensions(const json& root, GltfSource& source, ErrorList& errors) {
     std::vector<std::string> required = text_list(root, "extensionsRequired", errors);
     for (const std::string& name : required)
         if (!k_supported.contains(name))
             errors.add("the file requires the extension " + name + ", which is not supported (supported: " +
                        join({k_supported.begin(), k_supported.end()}, ", ") + ")");
+    const std::map<std::string, size_t> of_materials = material_extensions(root);
+    for (const auto& [name, count] : of_materials) {
+        const auto effect = std::find_if(std::begin(k_unread_materials), std::end(k_unread_materials),
+                                         [&name = name](const auto& entry) { return name == entry.first; });
+        source.notes.push_back(fmt::format("extension {} is ignored: {} material{} {}", name, count,
+                                           count == 1 ? "" : "s",
+                                           effect == std::end(k_unread_materials) ? "without it" : effect->second));
+    }
     for (const std::string& name : text_list(root, "extensionsUsed", errors))
-        if (!k_supported.contains(name)) source.notes.push_back("extension " + name + " is ignored");
+        if (!k_supported.contains(name) && !of_materials.contains(name))
+            source.notes.push_back("extension " + name + " is ignored");
 }
 
 void check_version(const json& root, ErrorList& errors) {

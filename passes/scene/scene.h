@@ -48,6 +48,13 @@ struct TextureSlot {
     float rotation = 0;
 };
 
+/// How alpha (base colour · texture · vertex colour) is read.
+enum class AlphaMode {
+    opaque, ///< not at all
+    mask,   ///< the surface is where alpha reaches the cutoff
+    blend   ///< the surface covers that share of each point: what is behind is seen through the rest
+};
+
 struct Material {
     std::string name;
     glm::vec4 base_colour{1};
@@ -55,8 +62,8 @@ struct Material {
     float roughness = 1;   ///< perceptual; α = roughness²
     glm::vec3 emission{0}; ///< radiance, W/(sr·m²): emissiveFactor · emissiveStrength
     float normal_scale = 1;
-    bool alpha_mask = false; ///< MASK, or BLEND read as MASK at 0.5
-    float alpha_cutoff = 0.5f;
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5f;              ///< of mask; at 0 all is there, above 1 nothing
     bool double_sided = false;              ///< only feeds the optional back-face cull of the camera pass
     TextureSlot base_colour_texture;        ///< sRGB, a = alpha
     TextureSlot metallic_roughness_texture; ///< g = roughness, b = metallic
@@ -221,7 +228,8 @@ struct SceneFacts {
     size_t texture_bytes = 0;
     size_t glossy_materials = 0;   ///< used materials with roughness < 0.9 or metallic > 0 somewhere (not diffuse_only)
     size_t emissive_materials = 0; ///< used materials
-    size_t alpha_tested_materials = 0;
+    size_t alpha_tested_materials = 0;                                ///< alpha mode mask
+    size_t blended_materials = 0;                                     ///< alpha mode blend
     size_t point_lights = 0, spot_lights = 0, directional_lights = 0; ///< enabled
     size_t lights() const { return point_lights + spot_lights + directional_lights; }
     size_t dynamic_instances = 0;

@@ -35,6 +35,8 @@ class ShotReader {
         shot_.time = object_.number("time", -1e6, 1e6).value_or(0);
         shot_.fps = object_.number("fps", 0.001, 100000).value_or(shot_.fps);
         shot_.diffuse_only = object_.boolean("diffuse_only").value_or(false);
+        const std::vector<std::string> models(k_material_models.begin(), k_material_models.end());
+        if (auto model = object_.choice("material_model", models)) shot_.material_model = MaterialModel(*model);
         shot_.normal_maps = object_.boolean("normal_maps").value_or(true);
         if (const json* value = object_.find("camera")) shot_.camera = read_camera(*value, errors_);
         shot_.camera_path = read_path(object_, "camera_path");

@@ -1,6 +1,7 @@
 #pragma once
 // A shot: everything that makes a picture, in one JSON file (assets/shots/*.json). Everything that renders takes one.
 
+#include "scene/material_model.h"
 #include "scene/scene.h"
 
 #include <filesystem>
@@ -26,8 +27,11 @@ struct Shot {
     float fps = 60;
     /// The materials are as authored: who shades reads ρ = base colour · (1 − metallic), and no specular lobe.
     bool diffuse_only = false;
+    MaterialModel material_model = MaterialModel::gltf; ///< without effect where diffuse_only is set
     bool normal_maps = true;
 
+    /// The model that surfaces are shaded by: Lambert is the plain sum without its second lobe.
+    MaterialModel effective_model() const { return diffuse_only ? MaterialModel::plain : material_model; }
     /// Seconds at frame i: time + i / fps.
     float time_at(int frame) const { return time + float(frame) / fps; }
 };

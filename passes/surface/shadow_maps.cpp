@@ -43,12 +43,13 @@ class ShadowMapsPass : public Pass {
         targets.layer = c.iteration;
         c.set("view_index", c.iteration);
         auto tested = [&](int draw) {
-            return c.scene().material_list()[c.scene().draw_list()[size_t(draw)].material].alpha_mask;
+            return c.scene().material_list()[c.scene().draw_list()[size_t(draw)].material].alpha_mode !=
+                   AlphaMode::opaque;
         };
         DrawOptions options;
         options.keep = [&](int draw) { return !tested(draw); };
         c.draw_scene("opaque", targets, options);
-        if (c.facts().alpha_tested_materials == 0) return;
+        if (c.facts().alpha_tested_materials + c.facts().blended_materials == 0) return;
         options.keep = tested;
         c.draw_scene("alpha_tested", targets, options);
     }

@@ -67,3 +67,36 @@ TEST(MipChain, BlackAndWhiteMakeTheCodeOfHalfTheLight) {
     EXPECT_EQ(mip_chain(image, true).back().rgba, (std::vector<uint8_t>{188, 188, 188, 128}));
     EXPECT_EQ(mip_chain(image, false).back().rgba, (std::vector<uint8_t>{128, 128, 128, 128}));
 }
+
+// Thin strips in a masked texture: means of alpha fall below the cutoff from level 2 on, and all would be gone.
+TEST(MipChain, KeepsTheShareThatPassesAMask) {
+    Image8 image{64, 64, std::vector<uint8_t>(64 * 64 * 4, 255)};
+    for (size_t i = 0; i < 64 * 64; ++i)
+        image.rgba[4 * i + 3] = (i % 64) % 5 == 0 || (i / 64) % 16 == 0 ? 255 : 10;
+    auto share = [](const Image8& level, int cutoff) {
+        double sum = 0;
+        for (size_t i = 3; i < level.rgba.size(); i += 4)
+            sum += level.rgba[i] >= cutoff;
+        return sum / double(level.rgba.size() / 4);
+    };
+    for (int cutoff : {64, 128, 200}) {
+        std::vector<Image8> plain = mip_chain(image, true), kept = plain;
+        keep_coverage(image, kept, float(cutoff) / 255);
+        EXPECT_LT(share(plain[3], cutoff), cutoff > 100 ? 0.1 : 1.1) << "the test is about something";
+        for (const Image8& level : kept) {
+            const double texels = double(level.width) * level.height;
+            if (texels < 16) continue;
+            // Equal alphas pass or fail together: strips of five texels repeat in a few values.
+            EXPECT_NEAR(share(level, cutoff), share(image, cutoff), 0.13) << level.width << " " << cutoff;
+        }
+        for (size_t i = 0; i < kept.size(); ++i)
+            for (size_t c = 0; c < kept[i].rgba.size(); ++c)
+                if (c % 4 != 3) EXPECT_EQ(kept[i].rgba[c], plain[i].rgba[c]) << "colours stay";
+    }
+    // All or nothing stays all or nothing.
+    std::vector<Image8> levels = mip_chain(image, false), before = levels;
+    keep_coverage(image, levels, 0);
+    keep_coverage(image, levels, 1.5f);
+    for (size_t i = 0; i < levels.size(); ++i)
+        EXPECT_EQ(levels[i].rgba, before[i].rgba);
+}

@@ -107,7 +107,7 @@ class LdmOracle {
                     p[k] = {glm::dot(glm::dvec4(view.to_x), world), glm::dot(glm::dvec4(view.to_y), world),
                             glm::dot(glm::dvec4(view.to_z), world)};
                 }
-                bool masked = scene.materials[size_t(instance.primitive.material)].alpha_mask;
+                bool masked = scene.materials[size_t(instance.primitive.material)].alpha_mode == AlphaMode::mask;
                 add(p, corners, masked && alpha.margin ? &alpha : nullptr);
             }
         }

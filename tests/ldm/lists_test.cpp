@@ -64,7 +64,7 @@ class LayeredDepthMaps : public LdmTest {
         if (path.empty()) GTEST_SKIP() << "the test scene is not beside the source tree";
         Scene scene = load_gltf(path);
         for (Material& material : scene.materials) // by the triangles alone
-            material.alpha_mask = false;
+            material.alpha_mode = AlphaMode::opaque;
         for (const Route& route : k_routes) {
             if (route.name == std::string("arrays")) continue; // of the same lists
             Sets sets = route.sets;

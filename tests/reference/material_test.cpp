@@ -123,10 +123,11 @@ TEST(Brdf, WhiteFurnaceIsReported) {
     EXPECT_GT(lobe_albedo(1.0f, 0.1f, glm::vec3(1), 1), 0.99);
 }
 
-// The tracer against quadrature: a rough metal floor under a point light and a uniform sky.
+// The tracer against quadrature of the plain sum: a rough metal floor under a point light and a uniform sky.
 TEST(Material, GlossyFloorMatchesTheBrdf) {
     SceneMaker maker;
     maker.shot.diffuse_only = false;
+    maker.shot.material_model = MaterialModel::plain;
     const glm::vec3 base(0.8f, 0.5f, 0.2f);
     maker.quad({-50, 0, -50}, {0, 0, 100}, {100, 0, 0}, maker.material(base, glm::vec3(0), 0.7f, 0.5f));
     maker.camera({0, 4, 3}, {0, 0, 0}, 0.05f);
@@ -252,7 +253,7 @@ TEST(Material, TexturesAreDecodedFilteredAndPlaced) {
 // A sheet above the floor whose left half is cut out by its alpha: seen through, lit through, and open to the sky.
 TEST(Material, AlphaTestedTexelsAreNotThere) {
     SceneMaker maker = textured_floor({255, 255, 255, 0, 255, 255, 255, 255}, false, true);
-    maker.shot.scene.materials[0].alpha_mask = true;
+    maker.shot.scene.materials[0].alpha_mode = AlphaMode::mask;
     maker.quad({-5, -1, -5}, {10, 0, 0}, {0, 0, 10}, maker.material(glm::vec3(0.5f)));
     ReferenceRender render(maker.shot, {});
     render.render_to(16);

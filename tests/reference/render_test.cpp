@@ -20,6 +20,7 @@ namespace {
 Shot busy_room() {
     SceneMaker maker;
     maker.shot.diffuse_only = false;
+    maker.shot.material_model = MaterialModel::plain;
     maker.shot.width = 40;
     maker.shot.height = 24;
     const int white = maker.material(glm::vec3(0.7f)), red = maker.material({0.8f, 0.1f, 0.1f}, glm::vec3(0), 0, 0.4f);

@@ -43,12 +43,12 @@ TEST(Material, FactorsAndDefaults) {
     EXPECT_EQ(paint.metallic, 0.25f);
     EXPECT_EQ(paint.roughness, 0.5f);
     EXPECT_EQ(paint.emission, glm::vec3(17, 8.5f, 0));
-    EXPECT_TRUE(paint.alpha_mask);
+    EXPECT_EQ(paint.alpha_mode, AlphaMode::mask);
     EXPECT_EQ(paint.alpha_cutoff, 0.3f);
     EXPECT_TRUE(paint.double_sided);
-    EXPECT_TRUE(scene.materials[2].alpha_mask);
-    EXPECT_EQ(scene.materials[2].alpha_cutoff, 0.5f);
-    EXPECT_THAT(scene.notes, ElementsAre("alphaMode BLEND is read as MASK at 0.5 (1 material)"));
+    EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::opaque);
+    EXPECT_EQ(scene.materials[2].alpha_mode, AlphaMode::blend);
+    EXPECT_THAT(scene.notes, IsEmpty());
 }
 
 TEST(Material, TexturesWithSamplersAndTransforms) {
@@ -237,6 +237,45 @@ TEST(Notes, EverythingSkippedIsListed) {
     EXPECT_THAT(scene.notes, Contains(HasSubstr("KHR_materials_clearcoat")));
     EXPECT_THAT(scene.notes, Contains(HasSubstr("morph targets are not supported")));
     EXPECT_THAT(scene.notes, Contains(HasSubstr("skinning is not supported")));
+}
+
+TEST(Notes, MaterialsThatLoseAnExtensionAreCounted) {
+    GltfBuilder b;
+    b.root["extensionsUsed"] = {"KHR_materials_unlit", "KHR_materials_sheen"};
+    const json ior{{"KHR_materials_ior", {{"ior", 1.3}}}};
+    b.add("materials", {{"extensions", {{"KHR_materials_unlit", json::object()}}}});
+    b.add("materials", {{"extensions", ior}});
+    b.add("materials", {{"extensions", ior}});
+    b.add("materials", {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", {{"glossinessFactor", 0.5}}}}}});
+    b.add("materials", {{"extensions", {{"KHR_materials_specular", {{"specularFactor", 0}}}}}});
+    b.add("materials", {{"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 2}}}}}});
+    EXPECT_THAT(
+        b.load().notes,
+        ::testing::UnorderedElementsAre(
+            "extension KHR_materials_unlit is ignored: 1 material shaded by the light that falls on it, not shown as "
+            "painted",
+            "extension KHR_materials_ior is ignored: 2 materials with the index of refraction 1.5 (F0 = 0.04)",
+            "extension KHR_materials_pbrSpecularGlossiness is ignored: 1 material with its metallic-roughness values "
+            "only (white metal of roughness 1 if it has none)",
+            "extension KHR_materials_specular is ignored: 1 material with the whole, white specular reflection of the "
+            "index of refraction 1.5",
+            "extension KHR_materials_sheen is ignored"));
+}
+
+TEST(Material, AlphaModesAndCutoffs) {
+    GltfBuilder b;
+    b.add("materials", {{"alphaMode", "MASK"}});
+    b.add("materials", {{"alphaMode", "MASK"}, {"alphaCutoff", 0}});
+    b.add("materials", {{"alphaMode", "MASK"}, {"alphaCutoff", 1.5}});
+    b.add("materials", {{"alphaMode", "OPAQUE"}, {"alphaCutoff", 0.2}});
+    b.add("materials", {{"alphaMode", "BLEND"}});
+    const Scene scene = b.load();
+    EXPECT_EQ(scene.materials[0].alpha_cutoff, 0.5f);
+    EXPECT_EQ(scene.materials[1].alpha_cutoff, 0);
+    EXPECT_EQ(scene.materials[2].alpha_cutoff, 1.5f);
+    EXPECT_EQ(scene.materials[1].alpha_mode, AlphaMode::mask);
+    EXPECT_EQ(scene.materials[3].alpha_mode, AlphaMode::opaque);
+    EXPECT_EQ(scene.materials[4].alpha_mode, AlphaMode::blend);
 }
 
 } // namespace

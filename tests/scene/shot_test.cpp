@@ -384,5 +384,32 @@ TEST_F(ShotTest, FactsCountWhatIsUsed) {
     EXPECT_EQ(shot_facts(shot).glossy_materials, 0u);
 }
 
+TEST_F(ShotTest, MaterialModel) {
+    EXPECT_EQ(load({{"scene", "triangle.gltf"}}).material_model, MaterialModel::gltf);
+    for (size_t i = 0; i < k_material_models.size(); ++i) {
+        Shot shot = load({{"scene", "triangle.gltf"}, {"material_model", std::string(k_material_models[i])}});
+        EXPECT_EQ(shot.material_model, MaterialModel(i));
+        EXPECT_EQ(shot.effective_model(), MaterialModel(i));
+        shot.diffuse_only = true;
+        EXPECT_EQ(shot.effective_model(), MaterialModel::plain);
+    }
+    EXPECT_THAT(error({{"scene", "triangle.gltf"}, {"material_model", "gltd"}}), HasSubstr("material_model is 'gltd'"));
+}
+
+TEST_F(ShotTest, BlendedMaterialsAreNamedWithHowTheyAreTaken) {
+    GltfBuilder b;
+    b.add("materials", {{"name", "glass"}, {"alphaMode", "BLEND"}});
+    b.add("materials", {{"name", "unused glass"}, {"alphaMode", "BLEND"}});
+    b.triangle({{"material", 0}});
+    folder.write("glass.gltf", b.text());
+    const std::string text = describe_scene(load({{"scene", "glass.gltf"}}));
+    for (const char* part : {"1 blended", "blended       glass\n", "probability 1 − alpha", "lrsm, dvs, vct",
+                             "ldm graphs", "shadow maps", "model         gltf"})
+        EXPECT_THAT(text, HasSubstr(part));
+    EXPECT_THAT(text, ::testing::Not(HasSubstr("unused glass")));
+    EXPECT_EQ(shot_facts(load({{"scene", "glass.gltf"}})).blended_materials, 1u);
+    EXPECT_THAT(describe_scene(load({{"scene", "triangle.gltf"}})), ::testing::Not(HasSubstr("probability")));
+}
+
 } // namespace
 } // namespace bounce::testing

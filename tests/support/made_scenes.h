@@ -19,7 +19,7 @@ inline Scene blocks() {
 inline Scene half_transparent(bool by_texture) {
     MadeScene made;
     made.quad({-1, -0.8f, -0.9f}, {1, -0.6f, -0.7f}, {1, 0.3f, 0.9f}, {-1, 0.1f, 0.7f});
-    made.material().alpha_mask = true;
+    made.material().alpha_mode = AlphaMode::mask;
     for (size_t k = 0; k < 4; ++k) {
         Vertex& vertex = made.vertex(k);
         bool right = k == 1 || k == 2;

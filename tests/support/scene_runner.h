@@ -116,6 +116,7 @@ class SceneRunner {
     glm::ivec2 size;
     int frame_index = 0;
     int diffuse_only = 1;
+    int material_model = 0; ///< MaterialModel
 
     void set_lights(std::vector<Light> lit_by) {
         state.lights = std::move(lit_by);
@@ -151,6 +152,7 @@ class SceneRunner {
         c.light_count = int(state.lights.size());
         c.shadow_view_count = gpu_scene_.shadow_view_count();
         c.diffuse_only = diffuse_only;
+        c.material_model = material_model;
         graph.execute(inputs);
         for (const GraphProblem& problem : graph.problems())
             ADD_FAILURE() << problem.where << ": " << problem.error.text();
