@@ -1,12 +1,11 @@
 #include "app/experiments/sweep.h"
 
 #include "core/error.h"
-#include "core/image.h"
+#include "core/json_text.h"
 #include "core/paths.h"
 #include "core/text.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace bounce {
 
@@ -53,12 +52,7 @@ Sweep load_sweep(const std::string& name) {
             names.push_back(entry.path().stem().string());
         throw Error("there is no sweep '" + name + "'" + did_you_mean(name, names));
     }
-    ordered_json json;
-    try {
-        json = ordered_json::parse(read_file(path), nullptr, true, true);
-    } catch (const ordered_json::parse_error& error) {
-        throw Error(path.string() + ": not JSON: " + error.what());
-    }
+    ordered_json json = read_json_file<ordered_json>(path);
     ErrorList errors;
     Sweep sweep;
     const std::vector<std::string> keys = {"about", "base", "lists", "each"};
