@@ -41,11 +41,14 @@ nlohmann::ordered_json figures_json(const ErrorFigures& f) {
 }
 
 std::string comparison_json(const CompareArguments& arguments, const LayerComparison& comparison,
-                            const std::vector<SurfaceComparison>& surfaces, int pixels_a_side) {
+                            const std::vector<SurfaceComparison>& surfaces, int pixels_a_side, double image_outside,
+                            double reference_outside) {
     nlohmann::ordered_json json;
     json["image"] = arguments.image;
     json["reference"] = arguments.reference;
     json["means_over_pixels"] = pixels_a_side * pixels_a_side;
+    json["outside_data_window"] = image_outside;
+    json["reference_outside_data_window"] = reference_outside;
     json["edges_masked"] = comparison.edges_masked;
     json["kept_pixels"] = comparison.mask.share();
     for (const PartComparison& part : comparison.parts) {
@@ -96,10 +99,16 @@ void print_table(const LayerComparison& comparison, const std::vector<SurfaceCom
 int compare(const CompareArguments& arguments) {
     if (!arguments.heatmap.empty()) check_output_folder(arguments.heatmap);
     bool image_display = false, reference_display = false;
-    LayeredImage image = read_picture(arguments.image, image_display);
-    const LayeredImage reference = read_picture(arguments.reference, reference_display);
+    PicturePlace image_place, reference_place;
+    LayeredImage image = read_picture(arguments.image, image_display, &image_place);
+    const LayeredImage reference = read_picture(arguments.reference, reference_display, &reference_place);
     int pixels_a_side = 1;
     image = averaged_to_size_of(reference, std::move(image), &pixels_a_side);
+    if (image_place.x != pixels_a_side * reference_place.x || image_place.y != pixels_a_side * reference_place.y) {
+        throw Error(fmt::format("'{}' begins at pixel ({}, {}) and '{}' at ({}, {}): expected the same display window",
+                                arguments.image, image_place.x, image_place.y, arguments.reference, reference_place.x,
+                                reference_place.y));
+    }
     if (image_display != reference_display) {
         throw Error("'" + arguments.image + "' and '" + arguments.reference +
                     "': one holds display values and the other linear radiance; compare two of a kind");
@@ -123,9 +132,16 @@ int compare(const CompareArguments& arguments) {
     }
     // The figures first: a false-colour picture that cannot be written does not cost them.
     if (arguments.json)
-        fmt::print("{}\n", comparison_json(arguments, comparison, surfaces, pixels_a_side));
+        fmt::print("{}\n", comparison_json(arguments, comparison, surfaces, pixels_a_side, image_place.outside,
+                                           reference_place.outside));
     else
         print_table(comparison, surfaces, pixels_a_side);
+    for (const auto& [name, place] :
+         {std::pair(arguments.image, image_place), std::pair(arguments.reference, reference_place)}) {
+        if (place.outside > 0 && !arguments.json)
+            fmt::print("{:.1f} % of '{}' lies outside of its data window and counts as black.\n", 100 * place.outside,
+                       name);
+    }
     if (!arguments.heatmap.empty()) {
         // The picture as a whole where there is one, unless a part was asked for.
         std::string part = comparison.parts.front().part;
@@ -133,7 +149,7 @@ int compare(const CompareArguments& arguments) {
             if (arguments.parts.empty() && p.part == "out.radiance") part = p.part;
         }
         Image a = part_of(image, part, "the image"), b = part_of(reference, part, "the reference");
-        drop_lone_alpha(a, b);
+        match_channels(a, b);
         const Image errors = relative_error_map(a, b);
         write_png(arguments.heatmap, heat_map(errors, 0, arguments.heatmap_top, comparison.mask));
     }

@@ -4,15 +4,15 @@
 #include "app/session.h"
 #include "app/timings.h"
 #include "core/error.h"
-#include "core/image.h"
+#include "core/json_text.h"
 #include "core/paths.h"
 #include "core/text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <glad/gl.h>
-#include <nlohmann/json.hpp>
 
 namespace bounce {
 
@@ -88,12 +88,7 @@ CostTableFile load_cost_table(const std::string& name) {
             names.push_back(entry.path().stem().string());
         throw Error("there is no table '" + name + "'" + did_you_mean(name, names));
     }
-    ordered_json json;
-    try {
-        json = ordered_json::parse(read_file(path), nullptr, true, true);
-    } catch (const ordered_json::parse_error& error) {
-        throw Error(path.string() + ": not JSON: " + error.what());
-    }
+    ordered_json json = read_json_file<ordered_json>(path);
     if (!json.is_object() || !json.contains("columns") || !json["columns"].is_array())
         throw Error(path.string() +
                     ": a table is an object {\"graph\": …, \"columns\": […], \"memory\": […], \"time\": […]}");
@@ -196,7 +191,7 @@ CostTableMeasured measure_column(const CostTableFile& file, const CostTableColum
         measured.rmse = point.same_transport.rmse_without_noise;
         measured.bias = point.same_transport.mean - point.same_transport.reference_mean;
         if (!measured.absolute) {
-            measured.rmse = *measured.rmse / point.same_transport.reference_mean;
+            measured.rmse = *measured.rmse / std::abs(point.same_transport.reference_mean);
             measured.bias = point.same_transport.bias;
         }
     }

@@ -1,11 +1,10 @@
 #include "app/experiments/parts.h"
 
 #include "core/error.h"
+#include "core/json_text.h"
 #include "core/text.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
-
 namespace bounce {
 
 Image sum_of_parts(const LayeredImage& image, const std::vector<std::string>& parts) {
@@ -33,7 +32,12 @@ Image sum_of_parts(const LayeredImage& image, const std::vector<std::string>& pa
 }
 
 double noise_of_parts(const LayeredImage& reference, const std::vector<std::string>& parts) {
-    nlohmann::json json = nlohmann::json::parse(reference.metadata, nullptr, false);
+    nlohmann::json json;
+    try {
+        json = parse_json(reference.metadata, "metadata");
+    } catch (const Error&) {
+        return 0;
+    }
     if (!json.is_object() || !json.contains("noise")) return 0;
     double variance = 0, mean = 0;
     for (const std::string& part : parts) {
