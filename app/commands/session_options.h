@@ -12,12 +12,13 @@ struct SessionArguments {
     std::string graph = k_default_graph;
     std::vector<std::string> sets;
     std::vector<std::string> enabled, disabled;
+    std::vector<std::string> shader_limits; ///< name=number
     std::string size;
     int device = -1;
     bool check_nan = false;
 
     void add_to(CLI::App& command, bool shot_required);
-    /// Throws Error for a malformed --set or --size.
+    /// Throws Error for a malformed --set, --shader-limit or --size. Sets the limits.
     SessionOptions options() const;
 };
 
