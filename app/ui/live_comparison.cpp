@@ -120,7 +120,7 @@ bool LiveComparison::update(const Session& session) {
                       session.camera().position);
     try {
         figures_ = error_figures(own_, truth_, mask_);
-    } catch (const Error& error) { // a NaN in the picture, nothing but edges …
+    } catch (const std::exception& error) { // a NaN in the picture, nothing but edges …
         figures_ = {};
         std::lock_guard lock(mutex_);
         problem_ = error.what();
