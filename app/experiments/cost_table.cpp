@@ -7,8 +7,10 @@
 #include "core/error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <glad/gl.h>
 #include <nlohmann/json.hpp>
 
 namespace bounce {
