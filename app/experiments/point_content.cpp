@@ -12,26 +12,24 @@
 
 namespace bounce {
 
-static std::string digest_of(const std::string& text) {
+/// The graph's files, whatever is said about them and however they are laid out.
+static std::string digest_of_graph(const GraphModel& model) {
     ContentHash hash;
-    hash.add(text);
+    for (const std::filesystem::path& file : model.files()) {
+        if (file.extension() != ".json") continue; // the shaders are digested as they are expanded
+        nlohmann::ordered_json json = nlohmann::ordered_json::parse(read_file(file), nullptr, true, true);
+        json.erase("about");
+        hash.add(json.dump());
+    }
     return hash.text();
-}
-
-/// The graph as it is, whatever is said about it and however its file is laid out.
-static std::string graph_text(const std::filesystem::path& path) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::parse(read_file(path), nullptr, true, true);
-    json.erase("about");
-    return json.dump();
 }
 
 const ContentReader::GraphContent& ContentReader::graph_content(const std::string& graph) {
     auto known = graphs_.find(graph);
     if (known != graphs_.end()) return known->second;
-    const std::filesystem::path path = find_graph(graph);
     GraphContent content;
-    const GraphModel model(read_graph_file(path));
-    content.text = digest_of(graph_text(path));
+    const GraphModel model(read_graph_file(find_graph(graph)));
+    content.text = digest_of_graph(model);
     for (const auto& node : model.nodes()) {
         ContentHash hash;
         for (const auto& program : node->programs) {
