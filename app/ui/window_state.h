@@ -2,6 +2,7 @@
 // What the window keeps beside the session: its layout, how large pictures are rendered, bookmarks, captures. Most of
 // it lives on between runs (ui_state_file.h).
 
+#include "scene/material_model.h"
 #include "scene/scene.h"
 
 #include <functional>

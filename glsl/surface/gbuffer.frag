@@ -15,7 +15,7 @@ in Surface {
 flat in uint surface_material;
 flat in uint surface_draw;
 
-uniform bool coverage_by_frame = false; //! static each frame draws anew where blended surfaces are; off: a still picture stays as it is
+uniform bool coverage_by_frame = false; //! static where blended surfaces are is drawn anew in each frame
 
 layout(location = 0) out vec4 albedo;           // base colour; a = 1 where there is a surface
 layout(location = 1) out vec4 normal;           // shading normal, world
