@@ -18,6 +18,7 @@ namespace bounce {
 namespace {
 
 constexpr int k_frames = 3;          // the first one compiles
+const glm::ivec2 k_size{640, 360};   // seconds per frame without a GPU
 constexpr int k_reference_share = 4; // of the picture's width and height: a first look does not wait for minutes
 constexpr int k_reference_samples = 64;
 
@@ -59,6 +60,7 @@ int render_default() {
     HeadlessContext context(-1);
     SessionOptions options;
     options.graph = k_first_graph;
+    options.size = k_size;
     Session session(options);
     Progress bar("rendering");
     for (int frame = 0; frame < k_frames; ++frame) {
