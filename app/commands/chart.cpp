@@ -5,11 +5,11 @@
 #include "app/experiments/sweep.h"
 #include "app/hosts/headless.h"
 #include "core/error.h"
+#include "core/scanner.h"
 #include "core/text.h"
 #include "scene/shot.h"
 
 #include <fmt/format.h>
-#include <regex>
 
 namespace bounce {
 
@@ -28,13 +28,13 @@ struct ChartArguments {
 /// "2/8": the third of eight.
 std::pair<int, int> parse_shard(const std::string& text) {
     if (text.empty()) return {0, 1};
-    static const std::regex form("([0-9]{1,6})/([0-9]{1,6})");
-    std::smatch match;
-    if (std::regex_match(text, match, form)) {
-        int i = std::stoi(match[1]), n = std::stoi(match[2]);
-        if (n >= 1 && i < n) return {i, n};
+    Scanner scanner(text);
+    std::optional<int> i = scanner.number(6);
+    if (i && scanner.take('/')) {
+        std::optional<int> n = scanner.number(6);
+        if (n && scanner.at_end() && *n >= 1 && *i < *n) return {*i, *n};
     }
-    throw Error("--shard " + text + ": it is written i/n with i = 0 … n − 1");
+    throw Error("--shard " + shortened(text) + ": it is written i/n with i = 0 … n − 1");
 }
 
 void print_line(const std::string& line) {

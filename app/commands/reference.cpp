@@ -5,6 +5,7 @@
 #include "app/progress.h"
 #include "core/error.h"
 #include "core/exr_file.h"
+#include "core/scanner.h"
 #include "core/text.h"
 #include "reference/reference_image.h"
 
@@ -15,7 +16,8 @@
 #include <csignal>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <regex>
+#include <optional>
+#include <tuple>
 #include <unistd.h>
 
 namespace bounce {
@@ -57,20 +59,19 @@ class InterruptGuard {
 
 int parse_bounces(const std::string& text) {
     if (text == "unlimited") return k_unlimited_bounces;
-    static const std::regex number("[0-9]{1,4}");
-    if (!std::regex_match(text, number)) {
-        throw Error("--bounces " + text + ": it is a number from 0 (direct light only), or 'unlimited'");
+    Scanner scanner(text);
+    std::optional<int> number = scanner.number(4);
+    if (!number || !scanner.at_end()) {
+        throw Error("--bounces " + shortened(text) + ": it is a number from 0 (direct light only), or 'unlimited'");
     }
-    return std::stoi(text);
+    return *number;
 }
 
 void apply_size(const std::string& size, Shot& shot) {
     if (size.empty()) return;
-    static const std::regex form("([0-9]{1,5})x([0-9]{1,5})");
-    std::smatch match;
-    if (!std::regex_match(size, match, form)) throw Error("--size " + size + ": it is written WxH, as 1280x720");
-    shot.width = std::stoi(match[1]);
-    shot.height = std::stoi(match[2]);
+    auto read = scan_size(size, 1, 5);
+    if (!read) throw Error("--size " + shortened(size) + ": it is written WxH, as 1280x720");
+    std::tie(shot.width, shot.height) = *read;
 }
 
 std::string add_metadata(const std::string& made, const ReferenceArguments& arguments, const ReferenceResult& result) {

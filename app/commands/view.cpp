@@ -3,9 +3,9 @@
 #include "app/commands/session_options.h"
 #include "app/ui/viewer_app.h"
 #include "core/error.h"
+#include "core/scanner.h"
 
 #include <fmt/format.h>
-#include <regex>
 
 namespace bounce {
 
@@ -17,11 +17,9 @@ struct ViewArguments : SessionArguments {
 };
 
 glm::ivec2 window_size(const std::string& text) {
-    static const std::regex form("([0-9]{3,5})x([0-9]{3,5})");
-    std::smatch match;
-    if (!std::regex_match(text, match, form))
-        throw Error(fmt::format("--window {}: it is written WxH, as 1366x768", text));
-    return {std::stoi(match[1]), std::stoi(match[2])};
+    auto read = scan_size(text, 3, 5);
+    if (!read) throw Error(fmt::format("--window {}: it is written WxH, as 1366x768", shortened(text)));
+    return {read->first, read->second};
 }
 
 int view(const ViewArguments& arguments) {

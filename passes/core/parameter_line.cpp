@@ -1,11 +1,12 @@
 // Reads the `uniform … //! …` lines of shaders.
+#include "core/parameter_line.h"
 #include "core/error.h"
-#include "core/parameters.h"
+#include "core/scanner.h"
+#include "core/source_lines.h"
 #include "core/text.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <regex>
 
 namespace bounce {
 
@@ -21,9 +22,13 @@ static ParameterKind kind_of_glsl(const std::string& type) {
 
 /// "vec3(1, 0.5f, 0)" → "1,0.5,0"; "1.0f" → "1.0".
 static std::string plain_default(std::string text) {
-    static const std::regex constructor(R"(^\s*[ib]?vec[234]\s*\(([^)]*)\)\s*$)");
-    std::smatch match;
-    if (std::regex_match(text, match, constructor)) text = match[1];
+    Scanner scanner(text);
+    std::string_view type = scanner.space().word();
+    if (!type.empty() && (type[0] == 'i' || type[0] == 'b')) type.remove_prefix(1);
+    if ((type == "vec2" || type == "vec3" || type == "vec4") && scanner.space().take('(')) {
+        auto inside = scanner.until(')');
+        if (inside && scanner.space().at_end()) text = std::string(*inside);
+    }
     std::vector<std::string> parts = split(text, ',');
     for (std::string& part : parts) {
         if (part.size() > 1 && (part.back() == 'f' || part.back() == 'F')) {
@@ -35,22 +40,43 @@ static std::string plain_default(std::string text) {
     return join(parts, ",");
 }
 
+/// "uniform float x = 1.0;": its three parts; the default may be empty.
+namespace {
+struct UniformLine {
+    std::string type, name, value;
+};
+} // namespace
+
+static std::optional<UniformLine> read_declaration(std::string_view code) {
+    Scanner scanner(code);
+    if (!scanner.space().take_word("uniform")) return std::nullopt;
+    std::string_view type = scanner.space().word(), name = scanner.space().word();
+    if (type.empty() || name.empty()) return std::nullopt;
+    UniformLine declaration{std::string(type), std::string(name), ""};
+    bool has_value = scanner.space().take('=');
+    auto value = scanner.until(';');
+    if (!value || !scanner.space().at_end() || trim(*value).empty() == has_value) return std::nullopt;
+    declaration.value = std::string(trim(*value));
+    return declaration;
+}
+
 bool parse_parameter_line(std::string_view line, ParameterInfo& info) {
-    size_t mark = line.find("//!");
-    if (mark == std::string_view::npos) return false;
-    static const std::regex declaration(R"(^\s*uniform\s+(\w+)\s+(\w+)\s*(?:=\s*([^;]+?)\s*)?;\s*$)");
-    std::cmatch match;
-    std::string before(trim(line.substr(0, mark)));
-    if (!std::regex_match(before.c_str(), match, declaration)) return false;
-    std::string type = match[1];
+    std::optional<CodeLine> read = CodeLines({std::string(line)}).next();
+    return read && read->mark && parse_parameter_line(read->code, *read->mark, info);
+}
+
+bool parse_parameter_line(std::string_view code, std::string_view mark, ParameterInfo& info) {
+    std::optional<UniformLine> declaration = read_declaration(code);
+    if (!declaration) return false;
+    const std::string& type = declaration->type;
     if (type.find("sampler") != std::string::npos || type.find("image") != std::string::npos) return false;
 
     info = {};
-    info.name = match[2];
+    info.name = declaration->name;
     info.kind = kind_of_glsl(type);
     info.in_shader = true;
 
-    std::string_view rest = trim(line.substr(mark + 3));
+    std::string_view rest = trim(mark);
     if (rest.starts_with("static") && (rest.size() == 6 || rest[6] == ' ')) {
         info.is_static = true;
         rest = trim(rest.substr(6));
@@ -92,7 +118,7 @@ bool parse_parameter_line(std::string_view line, ParameterInfo& info) {
 
     ParameterInfo as_number = info;
     if (info.kind == ParameterKind::enumeration) as_number.kind = ParameterKind::integer;
-    std::string text = match[3].matched ? plain_default(match[3]) : "0";
+    std::string text = declaration->value.empty() ? "0" : plain_default(declaration->value);
     try {
         info.default_value = parse_value(as_number, std::string_view(text));
         check_range(info, info.default_value);

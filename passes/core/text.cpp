@@ -6,6 +6,9 @@
 
 namespace bounce {
 
+/// Names are short; the time of comparing two is the product of their lengths.
+static constexpr size_t k_max_compared = 200;
+
 static size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), size_t{0});
@@ -22,9 +25,11 @@ static size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::optional<std::string> nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
+    if (name.size() > k_max_compared) return std::nullopt;
     const std::string* best = nullptr;
     size_t best_distance = 0;
     for (const std::string& candidate : candidates) {
+        if (candidate.size() > k_max_compared) continue;
         size_t distance = edit_distance(name, candidate);
         if (name.size() >= 3 && candidate.starts_with(name)) distance = std::min<size_t>(distance, 2); // cut short
         if (!best || distance < best_distance) {

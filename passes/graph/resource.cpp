@@ -1,9 +1,10 @@
 #include "graph/resource.h"
 
 #include "core/error.h"
+#include "core/scanner.h"
 
+#include <algorithm>
 #include <fmt/format.h>
-#include <regex>
 
 namespace bounce {
 
@@ -27,10 +28,14 @@ Extent Extent::relative_to(const std::string& resource, double scale) {
 }
 
 void check_resource_name(const std::string& name) {
-    static const std::regex form("[a-zA-Z][a-zA-Z0-9]*\\.[a-zA-Z0-9][a-zA-Z0-9_]*");
-    if (std::regex_match(name, form)) return;
-    throw Error(
-        fmt::format("'{}' is no resource name: it has one dot and no underscore before it, as gbuffer.normal", name));
+    Scanner scanner(name);
+    std::string_view group = scanner.word();
+    bool has_dot = scanner.take('.');
+    std::string_view own = scanner.word();
+    bool good = has_dot && scanner.at_end() && name.size() <= k_max_name && !group.empty() && !own.empty();
+    if (good && is_letter(group[0]) && group.find('_') == std::string_view::npos && own[0] != '_') return;
+    throw Error(fmt::format("'{}' is no resource name: it has one dot and no underscore before it, as gbuffer.normal",
+                            shortened(name)));
 }
 
 } // namespace bounce

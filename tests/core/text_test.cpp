@@ -32,3 +32,10 @@ TEST(Text, SplitTrimJoinAndBytes) {
     EXPECT_EQ(format_bytes(1536), "1.5 KiB");
     EXPECT_EQ(format_bytes(12.25 * 1024 * 1024), "12.25 MiB");
 }
+
+TEST(Text, LongNamesAreNotCompared) {
+    // A million characters against a million would take a day.
+    std::string name(1 << 20, 'a'), other(1 << 20, 'b');
+    EXPECT_EQ(nearest_name(name, {other}), std::nullopt);
+    EXPECT_EQ(nearest_name("some", {other, "same"}), "same");
+}
