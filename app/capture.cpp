@@ -3,12 +3,12 @@
 #include "commit.h"
 #include "core/error.h"
 #include "core/exr_file.h"
+#include "core/json_text.h"
 #include "core/text.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace bounce {
 
@@ -40,7 +40,7 @@ std::string picture_metadata(const Session& session, const std::string& resource
     json["parameters"] = parameters;
     json["renderer"] = gl_text(GL_RENDERER);
     json["driver"] = gl_text(GL_VERSION);
-    return json.dump();
+    return json_dump(json);
 }
 
 Image read_layer(const GpuTexture& texture, int mip, int layer) {

@@ -3,12 +3,12 @@
 #include "core/error.h"
 #include "core/image.h"
 #include "core/paths.h"
+#include "core/scanner.h"
 #include "graph/graph_file.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 namespace bounce {
 
@@ -71,8 +71,8 @@ static std::string filled(std::string text, const std::string& name, const std::
 
 std::string write_new_pass(const NewPass& request) {
     const std::string& name = request.name;
-    if (!std::regex_match(name, std::regex("[a-z][a-z0-9]*"))) {
-        throw Error("'" + name +
+    if (!is_lower_case_name(name, false)) {
+        throw Error("'" + shortened(name) +
                     "' is no name for a pass: it is lower case letters and digits, as 'edges' "
                     "(it also names the group of its resources)");
     }

@@ -2,13 +2,13 @@
 
 #include "app/experiments/transport.h"
 #include "core/error.h"
+#include "core/json_text.h"
 #include "core/text.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
-#include <nlohmann/json.hpp>
 
 namespace bounce {
 
@@ -107,12 +107,12 @@ std::string point_to_json(const ChartPoint& p) {
     j["content"] = content_json(p.content);
     j["thumbnail_png"] = p.thumbnail_png;
     j["error_png"] = p.error_png;
-    return j.dump(1) + "\n";
+    return json_dump(j, 1) + "\n";
 }
 
 ChartPoint point_from_json(const std::string& text, const std::string& where) {
     try {
-        ordered_json j = ordered_json::parse(text);
+        ordered_json j = parse_json<ordered_json>(text, where);
         ChartPoint p;
         p.key = j.at("key");
         SessionOptions& session = p.task.session;
@@ -151,7 +151,7 @@ ChartPoint point_from_json(const std::string& text, const std::string& where) {
         p.error_png = j.at("error_png");
         return p;
     } catch (const ordered_json::exception& error) {
-        throw Error(where + ": no point of a chart: " + error.what());
+        throw Error(where + ": no point of a chart: " + json_problem(error));
     }
 }
 

@@ -2,12 +2,11 @@
 
 #include "core/asset_files.h"
 #include "core/error.h"
-#include "core/image.h"
+#include "core/json_text.h"
 #include "core/metric_table.h"
 #include "core/text.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace bounce {
 
@@ -46,12 +45,7 @@ static std::string text_of(const ordered_json& value) {
 
 Sweep load_sweep(const std::string& name) {
     const std::filesystem::path path = find_asset("sweeps", "sweep", name);
-    ordered_json json;
-    try {
-        json = ordered_json::parse(read_file(path), nullptr, true, true);
-    } catch (const ordered_json::parse_error& error) {
-        throw Error(path.string() + ": not JSON: " + error.what());
-    }
+    ordered_json json = read_json_file<ordered_json>(path);
     ErrorList errors;
     Sweep sweep;
     const std::vector<std::string> keys = {"about", "base", "lists", "each", "enable", "disable", "metric"};

@@ -3,9 +3,10 @@
 #include "core/error.h"
 #include "core/image.h"
 #include "core/paths.h"
+#include "core/scanner.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 namespace bounce {
 
@@ -64,9 +65,12 @@ fs::path graph_preset_path(const std::string& name) {
         if (path.extension() != ".json") path += ".json";
         return path;
     }
-    static const std::regex form("[A-Za-z0-9_-]+(\\.json)?");
-    if (!std::regex_match(name, form)) {
-        throw Error("'" + name + "' is no name for a graph: it is letters, digits and underscores, or a path");
+    std::string_view stem = name;
+    if (stem.ends_with(".json")) stem.remove_suffix(5);
+    auto good = [](char c) { return is_word_character(c) || c == '-'; };
+    if (stem.empty() || stem.size() > k_max_name || !std::all_of(stem.begin(), stem.end(), good)) {
+        throw Error("'" + shortened(name) +
+                    "' is no name for a graph: it is letters, digits and underscores, or a path");
     }
     return assets_folder() / "graphs" / fs::path(name).replace_extension(".json");
 }

@@ -1,11 +1,10 @@
 #include "app/ui/open.h"
 
 #include "core/error.h"
-#include "core/image.h"
+#include "core/json_text.h"
 #include "core/paths.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 namespace bounce {
 
@@ -60,7 +59,7 @@ void ask_for_file(PanelContext& context, const std::string& path) {
                               true);
     }
     try {
-        auto root = nlohmann::json::parse(read_file(path), nullptr, true, true);
+        auto root = read_json_file(path);
         if (root.is_object() && root.contains("passes")) return ask_for_graph(context, path);
         if (root.is_object() && root.contains("scene")) return ask_for_shot(context, path);
         context.ui.say("'" + path + "' is neither a shot (it has no 'scene') nor a graph (it has no 'passes')", true);

@@ -3,12 +3,12 @@
 #include "app/ui/captures.h"
 #include "core/error.h"
 #include "core/image.h"
+#include "core/json_text.h"
 #include "scene/find_scene.h"
 #include "scene/keyframes.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace bounce {
 
@@ -106,7 +106,7 @@ std::string moved_name(const std::string& name, const fs::path& from, const fs::
 /// The file that the shot came from, with names that hold in `folder`; for a plain scene a new shot of it.
 json original(const Shot& shot, const fs::path& folder) {
     if (shot.path.extension() != ".json") return {{"scene", fs::weakly_canonical(shot.path).string()}};
-    json root = json::parse(read_file(shot.path), nullptr, true, true);
+    json root = read_json_file<json>(shot.path);
     fs::path from = shot.path.parent_path();
     auto scene = [&](json& holder) {
         holder["scene"] = moved_name(holder.at("scene").get<std::string>(), from, folder, find_scene);
@@ -162,7 +162,7 @@ std::string shot_text(const Session& session, const SceneBaseline& opened, const
     if (shot.material_model != MaterialModel::gltf || root.contains("material_model"))
         root["material_model"] = std::string(k_material_models[size_t(shot.material_model)]);
     if (!shot.normal_maps || root.contains("normal_maps")) root["normal_maps"] = shot.normal_maps;
-    return root.dump(2) + "\n";
+    return json_dump(root, 2) + "\n";
 }
 
 bool differs_from_shot(const Session& session, const SceneBaseline& opened) {

@@ -2,13 +2,13 @@
 
 #include "core/error.h"
 #include "core/image.h"
+#include "core/json_text.h"
 #include "core/log.h"
 #include "core/paths.h"
 #include "scene/shot.h"
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace bounce {
 
@@ -100,7 +100,7 @@ WindowState load_window_state() {
         std::filesystem::path path = state_path();
         std::error_code ignored;
         if (!std::filesystem::exists(path, ignored)) return {};
-        return state_from(json::parse(read_file(path)));
+        return state_from(read_json_file(path));
     } catch (const std::exception& error) {
         spdlog::warn("the window's state is ignored: {}", error.what());
         return {};
@@ -142,7 +142,7 @@ void save_window_state(const WindowState& state) {
     try {
         // Names of files may be no UTF-8: what cannot be written as such is replaced rather than lost with all the
         // rest.
-        write_file_atomically(state_path(), root.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+        write_file_atomically(state_path(), json_dump(root, 1) + "\n");
     } catch (const std::exception& error) {
         spdlog::warn("the window's state is not kept: {}", error.what());
     }

@@ -1,12 +1,12 @@
 #include "app/ui/widget_rects.h"
 
 #include "app/ui/live_comparison.h"
+#include "core/json_text.h"
 #include "core/log.h"
 
 #include <fstream>
 #include <imgui.h>
 #include <map>
-#include <nlohmann/json.hpp>
 
 namespace bounce {
 
@@ -75,7 +75,7 @@ void end_widget_frame(const PanelContext& context) {
     // Aside and renamed, as everywhere, but not forced to the disk: this happens many times a second.
     std::filesystem::path aside = dump_file;
     aside += ".tmp";
-    std::ofstream(aside) << json.dump(1) << '\n';
+    std::ofstream(aside) << json_dump(json, 1) << '\n';
     std::error_code error;
     std::filesystem::rename(aside, dump_file, error);
     if (error) spdlog::warn("cannot write '{}': {}", dump_file.string(), error.message());

@@ -1,15 +1,15 @@
 #include "graph/graph_file.h"
 
 #include "core/error.h"
-#include "core/image.h"
+#include "core/json_text.h"
 #include "core/paths.h"
+#include "core/scanner.h"
 #include "core/text.h"
 #include "graph/pass.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <set>
 #include <utility>
 
@@ -30,7 +30,8 @@ class ObjectReader {
         if (!object_.is_object()) return;
         for (const auto& [key, value] : object_.items()) {
             if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
-                errors_.add(fmt::format("{}: there is no key '{}'{}", where_, key, did_you_mean(key, known_)));
+                errors_.add(
+                    fmt::format("{}: there is no key '{}'{}", where_, shortened(key), did_you_mean(key, known_)));
             }
         }
     }
@@ -224,11 +225,13 @@ BindEntry read_bind(const json& value, const std::string& where, ErrorList& erro
         bind.layer = reader.expression("layer", "");
         if (bind.resource.empty()) reader.error("'resource' is missing");
     }
-    static const std::regex previous(R"(previous\(\s*([^)\s]+)\s*\))");
-    std::smatch match;
-    if (std::regex_match(bind.resource, match, previous)) {
-        bind.previous = true;
-        bind.resource = std::string(match[1]);
+    Scanner scanner(bind.resource);
+    if (scanner.take("previous(")) {
+        auto inside = scanner.until(')');
+        if (inside && scanner.at_end() && !trim(*inside).empty()) {
+            bind.previous = true;
+            bind.resource = std::string(trim(*inside));
+        }
     }
     return bind;
 }
@@ -274,9 +277,8 @@ NodeEntry read_node(const json& value, const std::string& where, ErrorList& erro
     else if (std::find(types.begin(), types.end(), node.type) == types.end()) {
         reader.error("there is no pass type '" + node.type + "'" + did_you_mean(node.type, types));
     }
-    static const std::regex id_form("[a-z][a-z0-9_]*");
-    if (!node.id.empty() && !std::regex_match(node.id, id_form)) {
-        reader.error("'" + node.id + "' is no pass id: it is lower case, digits and underscores");
+    if (!node.id.empty() && !is_lower_case_name(node.id, true)) {
+        reader.error("'" + shortened(node.id) + "' is no pass id: it is lower case, digits and underscores");
     }
     if (node.type == "compute" && node.shader.empty()) reader.error("'shader' is missing: a .comp file under glsl/");
     if (node.type != "compute" && !node.shader.empty()) reader.error("only passes of type compute take a 'shader'");
@@ -347,15 +349,7 @@ GraphFile read_graph_file(const std::filesystem::path& path) {
     GraphFile file;
     file.path = path;
     file.name = path.stem().string();
-    std::string text = read_file(path);
-    json root;
-    try {
-        root = json::parse(text, nullptr, true, true);
-    } catch (const json::parse_error& error) {
-        size_t line =
-            1 + size_t(std::count(text.begin(), text.begin() + long(std::min(error.byte, text.size())), '\n'));
-        throw Error(fmt::format("{}:{}: not JSON: {}", path.string(), line, error.what()));
-    }
+    json root = read_json_file(path);
     ErrorList errors;
     size_t told = 0;
     // Whether what was read last has errors; if so, a part of the file is not known in full.

@@ -2,11 +2,11 @@
 // in memory.
 
 #include "core/error.h"
+#include "core/json_text.h"
 #include "reference/render.h"
 
 #include <cstring>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 namespace bounce {
 
@@ -49,8 +49,13 @@ void ReferenceRender::load_state(const std::filesystem::path& path) {
     }
     std::vector<int> counts;
     std::vector<Checkpoint> history;
+    nlohmann::json header;
     try {
-        const auto header = nlohmann::json::parse(bytes.substr(k_magic.size(), line_end - k_magic.size()));
+        header = parse_json(std::string_view(bytes).substr(k_magic.size(), line_end - k_magic.size()), path.string());
+    } catch (const Error&) {
+        fail("its header is damaged");
+    }
+    try {
         if (header.at("key") != key_) fail("it belongs to another shot, to other settings or to another version");
         counts = header.at("tiles").get<std::vector<int>>();
         for (const auto& entry : header.at("history")) {
@@ -78,7 +83,7 @@ std::optional<ReferenceRender::StateHeader> read_state_header(const std::filesys
     std::string magic, line;
     if (!std::getline(file, magic) || magic + "\n" != k_magic || !std::getline(file, line)) return std::nullopt;
     try {
-        const auto json = nlohmann::json::parse(line);
+        const auto json = parse_json(line, path.string());
         ReferenceRender::StateHeader header;
         header.key = json.at("key").get<std::string>();
         header.samples = json.at("samples").get<int>();
@@ -86,7 +91,7 @@ std::optional<ReferenceRender::StateHeader> read_state_header(const std::filesys
         for (const auto& entry : json.at("history"))
             header.history.push_back(checkpoint_of(entry));
         return header;
-    } catch (const nlohmann::json::exception&) {
+    } catch (const std::exception&) {
         return std::nullopt;
     }
 }

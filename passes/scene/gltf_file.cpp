@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/image.h"
-#include "scene/json_text.h"
+#include "core/json_text.h"
 
 #include <cstdint>
 #include <cstring>
@@ -80,7 +80,7 @@ GltfFile read_gltf_file(const fs::path& path) {
         size_t known = file.binary ? 2 : 1;
         if (chunks.size() > known) file.notes.push_back(fmt::format("{} further .glb chunks", chunks.size() - known));
     }
-    file.json = parse_json(text, where);
+    file.json = parse_json(text, where, JsonComments::refused, k_max_scene_text);
     if (!file.json.is_object())
         throw Error(where + ": a glTF file holds one JSON object, but this is " + json_kind(file.json));
     return file;

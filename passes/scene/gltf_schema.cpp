@@ -1,6 +1,6 @@
 #include "scene/gltf_schema.h"
 
-#include "scene/json_text.h"
+#include "core/json_text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 #include "scene/gltf_source.h"
 
 #include "core/error.h"
+#include "core/json_text.h"
 #include "core/text.h"
 #include "scene/gltf_bounds.h"
 #include "scene/gltf_file.h"
 #include "scene/gltf_schema.h"
-#include "scene/json_text.h"
 
 #include <algorithm>
 #include <fmt/format.h>

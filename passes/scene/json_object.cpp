@@ -1,7 +1,8 @@
 #include "scene/json_object.h"
 
+#include "core/json_text.h"
+#include "core/scanner.h"
 #include "core/text.h"
-#include "scene/json_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -101,7 +102,7 @@ std::optional<size_t> JsonObject::choice(const char* key, const std::vector<std:
     const auto& name = value->get_ref<const std::string&>();
     auto it = std::find(names.begin(), names.end(), name);
     if (it != names.end()) return size_t(it - names.begin());
-    errors_.add(fmt::format("{} is '{}', but must be one of {}{}", at(key), name, join(names, ", "),
+    errors_.add(fmt::format("{} is '{}', but must be one of {}{}", at(key), shortened(name), join(names, ", "),
                             nearest_name(name, names) ? did_you_mean(name, names) : ""));
     return std::nullopt;
 }
@@ -109,7 +110,7 @@ std::optional<size_t> JsonObject::choice(const char* key, const std::vector<std:
 void JsonObject::finish() {
     for (const auto& [key, value] : value_->items())
         if (std::find(known_.begin(), known_.end(), key) == known_.end())
-            errors_.add(fmt::format("unknown key '{}'{}", at(key), did_you_mean(key, known_)));
+            errors_.add(fmt::format("unknown key '{}'{}", at(shortened(key)), did_you_mean(key, known_)));
 }
 
 } // namespace bounce

@@ -3,10 +3,10 @@
 #include "core/asset_files.h"
 #include "core/error.h"
 #include "core/image.h"
+#include "core/json_text.h"
 #include "core/paths.h"
 #include "core/text.h"
 #include "scene/gltf_parts.h"
-#include "scene/json_text.h"
 #include "scene/keyframes.h"
 #include "scene/merge.h"
 #include "scene/shot_parts.h"
@@ -158,7 +158,7 @@ Shot load_shot(const std::string& name) {
     if (is_gltf(path)) {
         shot = wrap_scene(path);
     } else if (path.extension() == ".json") {
-        json root = parse_json(read_file(path), path.string(), true);
+        json root = read_json_file(path);
         shot = ShotReader(path, root).read();
     } else {
         throw Error(path.string() + ": not a shot: a .json, .gltf or .glb is wanted");

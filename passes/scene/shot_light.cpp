@@ -1,6 +1,6 @@
 #include "core/image.h"
+#include "core/json_text.h"
 #include "scene/find_scene.h"
-#include "scene/json_text.h"
 #include "scene/keyframes.h"
 #include "scene/shot_parts.h"
 

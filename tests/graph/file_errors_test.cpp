@@ -34,9 +34,39 @@ TEST_F(GraphFileErrors, AllAreReportedTogether) {
     EXPECT_THAT(text, HasSubstr("passes[2].bind.a.b"));
 }
 
+/// Names of any length are read in one go, and told in short.
+TEST_F(GraphFileErrors, NamesThatAreVeryLong) {
+    const std::string name(26000, 'x');
+    std::string text =
+        errors("\"" + name + "\": 1, \"resources\": {\"" + name + "." + name + "\": {}, \"" + name + "\": {}}, " +
+               "\"passes\": [{\"id\": \"" + name + "\", \"type\": \"compute\", \"shader\": \"x.comp\", " +
+               "\"bind\": {\"a.b\": \"previous(" + name + ")\"}}, {\"type\": \"" + name + "\"}]");
+    EXPECT_THAT(text, HasSubstr("there is no key 'xxxx"));
+    EXPECT_THAT(text, HasSubstr("is no pass id"));
+    EXPECT_THAT(text, HasSubstr("is no resource name"));
+    EXPECT_THAT(errors("\"passes\": " + std::string(100000, '[')), HasSubstr("nested more than 64 levels"));
+}
+
+TEST_F(GraphFileErrors, FormsOfPrevious) {
+    shader("x.comp", "");
+    auto bound = [&](const std::string& source) {
+        GraphFile file = load_graph_file(
+            graph_file("\"passes\": [{\"id\":\"a\",\"type\":\"compute\",\"shader\":\"x.comp\",\"bind\":{\"a.b\":\"" +
+                       source + "\"}}]"));
+        const BindEntry& bind = file.nodes.at(0).bind.at("a.b");
+        return std::string(bind.previous ? "previous " : "") + bind.resource;
+    };
+    EXPECT_EQ(bound("previous(c.d)"), "previous c.d");
+    EXPECT_EQ(bound("previous( c.d )"), "previous c.d");
+    EXPECT_EQ(bound("c.d"), "c.d");
+    for (const char* other : {"previous()", "previous(c.d", "previous(c.d) x", "previous c.d", "xprevious(c.d)"})
+        EXPECT_EQ(bound(other), other);
+}
+
 TEST_F(GraphFileErrors, BrokenJsonNamesItsLine) {
     root.write("assets/graphs/g.json", "{\n  \"version\": 1,\n  \"passes\": [,]\n}\n");
-    EXPECT_THAT(error_of([&] { load_graph_file(root / "assets/graphs/g.json"); }), HasSubstr("g.json:3: not JSON"));
+    EXPECT_THAT(error_of([&] { load_graph_file(root / "assets/graphs/g.json"); }),
+                HasSubstr("g.json:3: not valid JSON"));
 }
 
 TEST_F(GraphFileErrors, NoVersionNoPassesTwiceTheSameId) {
