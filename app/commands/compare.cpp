@@ -30,10 +30,16 @@ int compare(const CompareArguments& arguments) {
         throw Error(
             fmt::format("invalid --window '{}': expected an odd number from 1 to {}", arguments.window, k_max_window));
     bool image_display = false, reference_display = false;
-    LayeredImage image = read_picture(arguments.image, image_display);
-    const LayeredImage reference = read_picture(arguments.reference, reference_display);
+    PicturePlace image_place, reference_place;
+    LayeredImage image = read_picture(arguments.image, image_display, &image_place);
+    const LayeredImage reference = read_picture(arguments.reference, reference_display, &reference_place);
     int pixels_a_side = 1;
     image = averaged_to_size_of(reference, std::move(image), &pixels_a_side);
+    if (image_place.x != pixels_a_side * reference_place.x || image_place.y != pixels_a_side * reference_place.y) {
+        throw Error(fmt::format("'{}' begins at pixel ({}, {}) and '{}' at ({}, {}): expected the same display window",
+                                arguments.image, image_place.x, image_place.y, arguments.reference, reference_place.x,
+                                reference_place.y));
+    }
     if (image_display != reference_display) {
         throw Error("'" + arguments.image + "' and '" + arguments.reference +
                     "': one holds display values and the other linear radiance; compare two of a kind");
@@ -45,8 +51,14 @@ int compare(const CompareArguments& arguments) {
     options.ppd = arguments.ppd;
     options.window = arguments.window;
     if (arguments.exposure_given) options.exposure = float(arguments.exposure);
-    ComparisonReport report{arguments.image, arguments.reference, compare_layers(image, reference, options), {},
-                            pixels_a_side,   arguments.window};
+    ComparisonReport report{arguments.image,
+                            arguments.reference,
+                            compare_layers(image, reference, options),
+                            {},
+                            pixels_a_side,
+                            arguments.window,
+                            image_place.outside,
+                            reference_place.outside};
     const LayerComparison& comparison = report.comparison;
     if (arguments.per_surface) {
         for (const PartComparison& part : comparison.parts) {
@@ -68,7 +80,7 @@ int compare(const CompareArguments& arguments) {
             if (arguments.parts.empty() && p.part == "out.radiance") part = p.part;
         }
         Image a = part_of(image, part, "the image"), b = part_of(reference, part, "the reference");
-        drop_lone_alpha(a, b);
+        match_channels(a, b);
         const Image errors = relative_error_map(a, b);
         write_png(arguments.heatmap, heat_map(errors, 0, arguments.heatmap_top, comparison.mask));
     }

@@ -14,6 +14,8 @@ struct ComparisonReport {
     std::vector<SurfaceComparison> surfaces;
     int pixels_a_side = 1; ///< of the image for each of the reference
     int window = 1;        ///< of PartComparison::windowed
+    /// The shares of both pictures for which their files hold no data (PicturePlace::outside).
+    double outside = 0, reference_outside = 0;
 };
 
 /// A table with a column for each metric that a person reads, and what it is measured over.

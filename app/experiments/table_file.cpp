@@ -1,7 +1,7 @@
 #include "app/experiments/table_file.h"
 
 #include "core/asset_files.h"
-#include "core/image.h"
+#include "core/json_text.h"
 #include "core/metric_table.h"
 #include "core/text.h"
 
@@ -17,12 +17,7 @@ std::filesystem::path find_table(const std::string& name) {
 }
 
 ordered_json read_table(const std::filesystem::path& path) {
-    ordered_json json;
-    try {
-        json = ordered_json::parse(read_file(path), nullptr, true, true);
-    } catch (const ordered_json::parse_error& error) {
-        throw Error(path.string() + ": not JSON: " + error.what());
-    }
+    ordered_json json = read_json_file<ordered_json>(path);
     if (!json.is_object()) throw Error(path.string() + ": a table is an object {…}");
     return json;
 }

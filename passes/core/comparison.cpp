@@ -1,11 +1,12 @@
 #include "core/comparison.h"
 
 #include "core/error.h"
+#include "core/image_exr.h"
+#include "core/json_text.h"
 #include "core/text.h"
 #include "core/window_mean.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 namespace bounce {
 
@@ -13,10 +14,31 @@ static std::vector<std::string> summands(const std::string& part) {
     return part.empty() ? std::vector<std::string>{""} : split(part, '+');
 }
 
+/// "ViewLayer.Combined", "View Layer.Combined.left", "beauty", "rgba": what Blender, Nuke and others call it.
+static bool names_the_picture(const std::string& layer) {
+    for (std::string part : split(layer, '.')) {
+        std::transform(part.begin(), part.end(), part.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+        for (const char* known : {"combined", "beauty", "rgba", "rgb", "color", "colour", "image"})
+            if (part == known) return true;
+    }
+    return false;
+}
+
+/// The layer that is the picture as a whole; null when there is none, or it cannot be told which.
+static const std::string* picture_layer(const LayeredImage& image) {
+    if (auto unnamed = image.layers.find(""); unnamed != image.layers.end()) return &unnamed->first;
+    for (const auto& [name, layer] : image.layers)
+        if (names_the_picture(name)) return &name;
+    bool own = !image.layers.empty() &&
+               (image.layers.begin()->first.starts_with("out.") || image.layers.begin()->first.starts_with("gbuffer."));
+    return image.layers.size() == 1 && !own ? &image.layers.begin()->first : nullptr;
+}
+
 Image part_of(const LayeredImage& image, const std::string& part, const std::string& what) {
     Image sum;
+    const std::string* whole = picture_layer(image);
     for (const std::string& name : summands(part)) {
-        auto layer = image.layers.find(name);
+        auto layer = image.layers.find(name.empty() && whole ? *whole : name);
         if (layer == image.layers.end()) continue;
         if (sum.empty()) {
             sum = layer->second;
@@ -37,7 +59,9 @@ Image part_of(const LayeredImage& image, const std::string& part, const std::str
 
 Image part_or_black(const LayeredImage& image, const std::string& part, const Image& like) {
     const std::vector<std::string> names = summands(part);
-    const bool there = std::any_of(names.begin(), names.end(), [&](auto& name) { return image.layers.contains(name); });
+    const bool there = std::any_of(names.begin(), names.end(), [&](auto& name) {
+        return image.layers.contains(name) || (name.empty() && picture_layer(image));
+    });
     return there ? part_of(image, part, "the image") : Image(like.width, like.height, like.channels);
 }
 
@@ -47,10 +71,11 @@ static std::vector<std::string> common_parts(const LayeredImage& test, const Lay
         if (name.rfind("out.", 0) == 0 && name != "out.display" && test.layers.count(name)) parts.push_back(name);
     }
     if (parts.empty() && test.layers.count("") && reference.layers.count("")) parts.push_back("");
-    if (parts.empty() && test.layers.size() == 1 && reference.layers.count(test.layers.begin()->first)) {
-        parts.push_back(test.layers.begin()->first);
-    }
     if (!parts.empty()) return parts;
+    if (test.layers.size() == 1 && reference.layers.count(test.layers.begin()->first))
+        return {test.layers.begin()->first};
+    const std::string *whole = picture_layer(test), *reference_whole = picture_layer(reference);
+    if (whole && reference_whole) return {*whole == *reference_whole ? *whole : ""};
     auto names = [](const LayeredImage& image) {
         std::vector<std::string> all;
         for (const auto& [name, layer] : image.layers)
@@ -70,7 +95,11 @@ static const Image* find_layer(const LayeredImage& first, const LayeredImage& se
 }
 
 static nlohmann::json metadata_of(const LayeredImage& image) {
-    return nlohmann::json::parse(image.metadata, nullptr, false);
+    try {
+        return parse_json(image.metadata, "metadata");
+    } catch (const Error&) {
+        return nullptr; // the picture counts without it
+    }
 }
 
 /// The camera from either file's metadata.
@@ -114,9 +143,20 @@ static Image three_channels(const Image& image) {
     return out;
 }
 
-void drop_lone_alpha(Image& a, Image& b) {
-    if (a.channels == 4 && b.channels == 3) a = three_channels(a);
-    if (b.channels == 4 && a.channels == 3) b = three_channels(b);
+static Image luminance(const Image& image) {
+    Image out(image.width, image.height, 1);
+    for (size_t i = 0; i < out.pixels.size(); ++i) {
+        const float* rgb = &image.pixels[i * 3];
+        out.pixels[i] = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+    }
+    return out;
+}
+
+void match_channels(Image& a, Image& b) {
+    if (a.channels == 4) a = three_channels(a);
+    if (b.channels == 4) b = three_channels(b);
+    if (a.channels == 1 && b.channels == 3) b = luminance(b);
+    if (b.channels == 1 && a.channels == 3) a = luminance(a);
 }
 
 bool is_radiance(const std::string& part) {
@@ -136,7 +176,7 @@ static PartComparison compare_part(const std::string& part, const LayeredImage& 
     const std::string shown = part.empty() ? "the image" : part;
     Image b = part_of(reference, part, "the reference");
     Image a = options.absent_is_black ? part_or_black(test, part, b) : part_of(test, part, "the image");
-    drop_lone_alpha(a, b);
+    match_channels(a, b);
     check_same_size(a, shown + " of the image", b, shown + " of the reference");
     check_finite(a, shown + " of the image");
     check_finite(b, shown + " of the reference");
@@ -194,7 +234,7 @@ std::vector<SurfaceComparison> compare_surfaces(const LayeredImage& test, const 
     if (!normal || !material) return surfaces;
     const Image ids = surface_ids(*material, *normal);
     Image a = part_of(test, part, "the image"), b = part_of(reference, part, "the reference");
-    drop_lone_alpha(a, b);
+    match_channels(a, b);
     for (const auto& [id, count] : component_counts(ids)) {
         const Mask own = mask & component_mask(ids, id);
         if (double(own.count()) < 0.005 * double(mask.count()) || own.count() == 0) continue;
@@ -238,12 +278,17 @@ LayeredImage averaged_to_size_of(const LayeredImage& reference, LayeredImage ima
     return image;
 }
 
-LayeredImage read_picture(const std::filesystem::path& path, bool& display) {
+LayeredImage read_picture(const std::filesystem::path& path, bool& display, PicturePlace* place) {
     display = false;
+    if (place) *place = {};
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) { return char(std::tolower(c)); });
     LayeredImage picture;
-    if (extension == ".exr") return read_exr(path);
+    if (extension == ".exr") {
+        ExrPicture read = read_exr_picture(path, ExrChannels::radiance);
+        if (place) *place = {read.x, read.y, read.outside};
+        return std::move(read.image);
+    }
     if (extension == ".hdr") {
         picture.layers[""] = read_hdr(path);
         return picture;

@@ -12,7 +12,8 @@ namespace bounce {
 
 struct ComparisonOptions {
     /// Parts by name; "a+b" compares the sums of layers (of which each file must hold at least one). Empty: every out.*
-    /// layer that both files have, and the plain picture "" when there are no others.
+    /// layer that both files have, and the plain picture "" when there are no others; else what each file
+    /// calls the picture as a whole (no name, ViewLayer.Combined, beauty …).
     std::vector<std::string> parts;
     bool mask_edges =
         true; ///< by gbuffer.normal and gbuffer.position of the reference, or else of the image, where one has them
@@ -55,7 +56,8 @@ LayerComparison compare_layers(const LayeredImage& test, const LayeredImage& ref
 std::vector<SurfaceComparison> compare_surfaces(const LayeredImage& test, const LayeredImage& reference,
                                                 const std::string& part, const Mask& mask);
 
-/// The layer, or sum of layers, that `part` names. Throws Error naming `what` when there is none.
+/// The layer, or sum of layers, that `part` names; "" is the picture as a whole. Throws Error naming `what` when there
+/// is none.
 Image part_of(const LayeredImage& image, const std::string& part, const std::string& what);
 /// The same; where there is none, black, as large as `like`: the graph had nothing to make it from.
 Image part_or_black(const LayeredImage& image, const std::string& part, const Image& like);
@@ -63,16 +65,24 @@ Image part_or_black(const LayeredImage& image, const std::string& part, const Im
 /// Whether a part is light, to be tone-mapped before it is looked at; occlusion and display values are not.
 bool is_radiance(const std::string& part);
 
-/// RGBA against RGB: the alpha of a GPU's texture is no part of the picture, and is dropped.
-void drop_lone_alpha(Image& a, Image& b);
+/// Makes the two comparable: a fourth channel is alpha, which is no radiance; against a picture of luminance alone, RGB
+/// counts by its own luminance (Rec. 709).
+void match_channels(Image& a, Image& b);
 
 /// A picture of k times the reference's width and height (k a whole number above 1), as means over k × k pixels: of the
 /// area that the reference's pixels cover, like they themselves. What is no light (gbuffer.*) is taken from the pixel
 /// at the middle. Any other picture stays as it is. `k`, if given, becomes that number.
 LayeredImage averaged_to_size_of(const LayeredImage& reference, LayeredImage image, int* k = nullptr);
 
-/// Reads a picture to compare: .exr as it is; any 8-bit format as the linear values of its sRGB (layer ""); .hdr.
-/// `display` tells whether the values are display values.
-LayeredImage read_picture(const std::filesystem::path& path, bool& display);
+/// Where a picture lies, as OpenEXR files say.
+struct PicturePlace {
+    int x = 0, y = 0;   ///< its upper left pixel
+    double outside = 0; ///< the share of its pixels for which the file holds no data: they are black
+};
+
+/// Reads a picture to compare: the radiance of an .exr (R, G, B or Y of each layer, nothing else) over its display
+/// window; any 8-bit format as the linear values of its sRGB (layer ""); .hdr. `display` tells whether the values are
+/// display values.
+LayeredImage read_picture(const std::filesystem::path& path, bool& display, PicturePlace* place = nullptr);
 
 } // namespace bounce

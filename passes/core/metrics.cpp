@@ -35,7 +35,7 @@ static void check_mask(const Image& image, const Mask& mask) {
 }
 
 static double ratio_to_mean(double value, double mean) {
-    if (mean != 0) return value / mean;
+    if (mean != 0) return value / std::abs(mean);
     return value == 0 ? 0 : std::numeric_limits<double>::infinity();
 }
 

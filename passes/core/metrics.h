@@ -5,6 +5,7 @@
 
 #include "core/image.h"
 
+#include <cmath>
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <string>
@@ -46,24 +47,24 @@ struct ErrorFigures {
     size_t pixels = 0;         ///< unmasked
     double mean = 0;           ///< of a
     double reference_mean = 0; ///< of b
-    double bias = 0;           ///< mean(a) / mean(b) − 1; 0 when both means are 0, infinite when only mean(b) is
-    double rmse = 0;           ///< √ mean (a − b)²
-    double relative_rmse = 0;  ///< rmse / mean(b), as for bias when mean(b) is 0
-    double relative_mse = 0; ///< mean of (a − b)² / (b² + ε), ε = 0.01·mean(b)²: the usual 0.01, free of units
-    double smape = 0;        ///< mean of |a − b| / (|a| + |b|), 0/0 = 0: from 0 to 1
+    double bias = 0; ///< (mean(a) − mean(b)) / |mean(b)|; 0 when both means are 0, infinite when only mean(b) is
+    double rmse = 0; ///< √ mean (a − b)²
+    double relative_rmse = 0; ///< rmse / |mean(b)|, as for bias when mean(b) is 0
+    double relative_mse = 0;  ///< mean of (a − b)² / (b² + ε), ε = 0.01·mean(b)²: the usual 0.01, free of units
+    double smape = 0;         ///< mean of |a − b| / (|a| + |b|), 0/0 = 0: from 0 to 1
     double relative_error_p99 =
-        0; ///< 99th percentile over pixels of mean|a − b| / (mean|b| + 0.01·mean(b)), means over channels
+        0; ///< 99th percentile over pixels of mean|a − b| / (mean|b| + 0.01·|mean(b)|), means over channels
     double largest_error = 0; ///< max |a − b|
 
-    /// The share of `relative_rmse` that the reference's own noise explains: √ mean variance / mean(b); 0 when not
+    /// The share of `relative_rmse` that the reference's own noise explains: √ mean variance / |mean(b)|; 0 when not
     /// known.
     double reference_noise = 0;
-    /// √max(0, rmse² − variance) / mean(b): relative RMSE against a reference without noise, on average.
+    /// √max(0, rmse² − variance) / |mean(b)|: relative RMSE against a reference without noise, on average.
     double relative_rmse_denoised = 0;
 
     /// Absolute, in the images' own units: what counts for occlusion.
     double mean_difference() const { return mean - reference_mean; }
-    double rmse_denoised() const { return relative_rmse_denoised * reference_mean; }
+    double rmse_denoised() const { return relative_rmse_denoised * std::abs(reference_mean); }
 };
 
 /// Throws Error as said above. `reference_rms_noise` is the RMS standard error of the reference's values (in the units

@@ -5,7 +5,7 @@ import pathlib
 import unittest
 
 from exr import write_exr
-from program import SMALL, ProgramTest
+from program import ROOT, SMALL, ProgramTest
 
 NAN = float("nan")
 
@@ -30,6 +30,46 @@ class Compare(ProgramTest):
         other = json.loads(self.run_program("compare", a, b, "--json").stdout)["parts"]["out.direct"]
         self.assertAlmostEqual(other["bias"], 0.1, places=6)
         self.assertAlmostEqual(other["relative_rmse"], 0.1, places=6)
+
+    def figures(self, *arguments, part=""):
+        result = self.run_program("compare", *arguments, "--json")
+        self.assert_good(result)
+        return json.loads(result.stdout)["parts"][part]
+
+    def test_only_red_green_and_blue_are_radiance(self):
+        def write(name, value, **others):
+            write_exr(self.out / name, 4, 3, {"R": [value] * 12, "G": [value] * 12, "B": [value] * 12, **{k: [v] * 12 for k, v in others.items()}})
+        write("a.exr", 2.0, A=1.0, Z=1e10, u=3.0, v=NAN)
+        write("b.exr", 1.0, A=0.5, Z=5.0, u=9.0, v=1.0)
+        write("c.exr", 1.0)
+        for other in ("b.exr", "c.exr"):
+            self.assertAlmostEqual(self.figures("a.exr", other)["bias"], 1, places=6)
+            self.assertAlmostEqual(self.figures("a.exr", other)["relative_rmse"], 1, places=6)
+
+    def test_the_shared_pairs_of_other_programs(self):
+        cases = ROOT.parent / "shared/cases/exr"
+        if not cases.is_dir():
+            self.skipTest("there is no ../shared/cases")
+        for a, b in (("rgba_a", "rgba_b"), ("pbrt_a", "pbrt_b")):
+            self.assertAlmostEqual(self.figures(cases / f"{a}.exr", cases / f"{b}.exr")["bias"], 1, places=3)
+        figures = self.figures(cases / "rgb_a.exr", cases / "neg.exr")
+        self.assertAlmostEqual(figures["relative_rmse"], 3, places=3)
+        self.assertGreater(figures["bias"], 0)
+
+    def test_windows(self):
+        """Pixels of the display window for which a file has no data are black, and told; those outside of it do not count."""
+        def write(name, value, width, height, **windows):
+            write_exr(self.out / name, width, height, {c: [value] * (width * height) for c in "RGB"}, **windows)
+        write("whole.exr", 1.0, 4, 4)
+        write("crop.exr", 1.0, 2, 2, data_at=(1, 1), display=(0, 0, 3, 3))
+        write("over.exr", 1.0, 8, 9, data_at=(-2, -3), display=(0, 0, 3, 3))
+        write("moved.exr", 1.0, 4, 4, data_at=(-4, 7))
+        self.assertAlmostEqual(self.figures("crop.exr", "whole.exr")["mean"], 0.25, places=6)
+        self.assertIn("75.0 % of 'crop.exr' lies outside of its data window", self.run_program("compare", "crop.exr", "whole.exr").stdout)
+        self.assertEqual(self.figures("over.exr", "whole.exr")["rmse"], 0)
+        self.assertEqual(self.figures("moved.exr", "moved.exr")["rmse"], 0)
+        self.refused("moved.exr", "whole.exr", words=["(-4, 7)", "(0, 0)", "expected the same display window"],
+                     leaves=["crop.exr", "moved.exr", "over.exr", "whole.exr"])
 
     def test_occlusion_is_told_in_its_own_units(self):
         a = self.write("a.exr", value=0.3, part="out.ambient_occlusion")
