@@ -1,9 +1,10 @@
 #include "app/commands/session_options.h"
 
 #include "core/error.h"
+#include "core/scanner.h"
+#include "gpu/shader_limits.h"
 
 #include <fmt/format.h>
-#include <regex>
 
 namespace bounce {
 
@@ -24,6 +25,10 @@ void SessionArguments::add_settings_to(CLI::App& command) {
     command.add_option("--size", size, "WxH instead of the shot's size");
     command.add_option("--material-model", material_model, "plain, gltf or appendix_b instead of the shot's");
     command.add_option("--device", device, "which EGL device (see --list-devices)");
+    command
+        .add_option("--shader-limit", shader_limits,
+                    "name=number: what shader text may hold at most, as private_bytes=262144 (repeatable)")
+        ->allow_extra_args(false);
     command.add_flag("--check-nan", check_nan, "look for values that are not finite after every pass");
 }
 
@@ -33,6 +38,8 @@ SessionOptions SessionArguments::options() const {
     out.graph = graph;
     out.check_nan = check_nan;
     if (!material_model.empty()) out.material_model = material_model_named(material_model);
+    for (const std::string& limit : shader_limits)
+        set_shader_limit(limit);
     for (const std::string& set : sets) {
         size_t equals = set.find('=');
         if (equals == std::string::npos || equals == 0) {
@@ -45,11 +52,9 @@ SessionOptions SessionArguments::options() const {
     for (const std::string& id : disabled)
         out.switches.emplace_back(id, false);
     if (!size.empty()) {
-        static const std::regex form("([0-9]{1,5})x([0-9]{1,5})");
-        std::smatch match;
-        if (!std::regex_match(size, match, form))
-            throw Error(fmt::format("--size {}: it is written WxH, as 1280x720", size));
-        glm::ivec2 pixels(std::stoi(match[1]), std::stoi(match[2]));
+        auto read = scan_size(size, 1, 5);
+        if (!read) throw Error(fmt::format("--size {}: it is written WxH, as 1280x720", shortened(size)));
+        glm::ivec2 pixels(read->first, read->second);
         if (pixels.x < 1 || pixels.y < 1 || pixels.x > 16384 || pixels.y > 16384) {
             throw Error(fmt::format("--size {}: each side is 1 … 16384", size));
         }

@@ -12,6 +12,7 @@ struct SessionArguments {
     std::string graph = k_default_graph;
     std::vector<std::string> sets;
     std::vector<std::string> enabled, disabled;
+    std::vector<std::string> shader_limits; ///< name=number
     std::string size;
     std::string material_model;
     int device = -1;
@@ -20,7 +21,7 @@ struct SessionArguments {
     void add_to(CLI::App& command, bool shot_required);
     /// All but the shot and the graph, for commands that take several.
     void add_settings_to(CLI::App& command);
-    /// Throws Error for a malformed --set, --size or --material-model.
+    /// Throws Error for a malformed --set, --shader-limit, --size or --material-model. Sets the shader limits.
     SessionOptions options() const;
 };
 

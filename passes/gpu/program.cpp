@@ -2,6 +2,7 @@
 
 #include "core/log.h"
 #include "gpu/objects.h"
+#include "gpu/shader_limits.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -99,10 +100,13 @@ static std::string program_log(GLuint program) {
 }
 
 static std::string resource_name(GLuint program, GLenum kind, GLuint index) {
-    char name[256];
+    const GLenum wanted = GL_NAME_LENGTH;
+    GLint room = 1;
+    glGetProgramResourceiv(program, kind, index, 1, &wanted, 1, nullptr, &room);
+    std::string text(size_t(std::max(room, 1)), '\0');
     GLsizei length = 0;
-    glGetProgramResourceName(program, kind, index, sizeof name, &length, name);
-    std::string text(name, size_t(length));
+    glGetProgramResourceName(program, kind, index, room, &length, text.data());
+    text.resize(size_t(length));
     if (text.ends_with("[0]")) text.resize(text.size() - 3);
     return text;
 }
@@ -171,6 +175,10 @@ static ProgramInterface reflect(GLuint program, bool compute) {
 
 bool Program::build(const std::function<std::vector<std::string>(const ProgramInterface&)>& check) {
     if (!errors_.empty()) return false;
+    for (const ShaderSource& source : sources_) {
+        errors_ = check_shader_limits(source, folder_); // before the driver sees it
+        if (!errors_.empty()) return false;
+    }
     GLuint program = glCreateProgram();
     std::vector<GLuint> shaders;
     bool compute = false;
