@@ -50,7 +50,7 @@ void Session::open_shot(const std::string& name) {
     std::swap(shot_, next);
     try {
         load_scene_to_gpu();
-    } catch (const Error&) {
+    } catch (...) {
         std::swap(shot_, next);
         load_scene_to_gpu();
         throw;

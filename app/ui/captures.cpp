@@ -68,7 +68,7 @@ void record_frame(PanelContext& context) {
     fs::path path = fmt::format("{}{:04}.png", start, capture.written);
     try {
         write_picture(context.session, path);
-    } catch (const Error&) {
+    } catch (...) {
         capture.recording = false;
         throw;
     }

@@ -6,8 +6,8 @@
 #include "app/ui/style.h"
 #include "app/ui/ui_state_file.h"
 #include "app/ui/widget_rects.h"
-#include "core/error.h"
 #include "core/log.h"
+#include "core/problem.h"
 
 namespace bounce {
 
@@ -87,10 +87,11 @@ void ViewerApp::open_session() {
                       (!options_.graph_given && options_.session.graph != k_default_graph);
     try {
         session_ = std::make_unique<Session>(options_.session);
-    } catch (const Error& error) {
+    } catch (const std::exception& problem) {
         if (!remembered) throw;
-        spdlog::warn("the last run's shot or graph cannot be opened again: {}", error.what());
-        ui_.say(std::string("the last shot cannot be opened again: ") + error.what(), true);
+        std::string text = "the last shot or graph cannot be opened again: " + problem_text(problem);
+        spdlog::warn("{}", text);
+        ui_.say(text, true);
         if (!options_.shot_given) options_.session.shot = k_default_shot;
         if (!options_.graph_given) options_.session.graph = k_default_graph;
         session_ = std::make_unique<Session>(options_.session);

@@ -1,10 +1,11 @@
 // The panels in their places.
 #include "app/ui/edit.h"
+#include "app/ui/imgui_stack.h"
 #include "app/ui/status_bar.h"
 #include "app/ui/style.h"
 #include "app/ui/viewer_app.h"
 #include "app/ui/widget_rects.h"
-#include "core/error.h"
+#include "core/problem.h"
 
 #include <fmt/format.h>
 
@@ -26,12 +27,14 @@ const std::vector<Tab> k_upper = {
 const std::vector<Tab> k_lower = {
     {"Parameters", draw_parameters_panel}, {"Pixel", draw_inspector_panel}, {"Cones", draw_cones_panel}};
 
-/// A panel that meets bad input says so, and the frame goes on.
+/// A panel in which something goes wrong says so, and the frame goes on.
 void draw_panel(const Tab& tab, PanelContext& context) {
+    ImGuiStack stack;
     try {
         tab.draw(context);
-    } catch (const Error& error) {
-        context.ui.say(error.what(), true);
+    } catch (const std::exception& problem) {
+        stack.unwind();
+        context.ui.say(problem_text(problem), true);
     }
 }
 
@@ -72,14 +75,18 @@ void ViewerApp::draw() {
     begin_widget_frame();
     begin_edit_frame();
     ImVec2 display = ImGui::GetIO().DisplaySize;
-    Areas areas = arrange(ui_.window.layout, display, scale, ui_.show_log);
-    if (drag_splitters(ui_.window.layout, areas, scale))
-        areas = arrange(ui_.window.layout, display, scale, ui_.show_log);
-    draw_panels(panels, areas);
-    viewport_.draw(panels, areas.viewport, *window_);
-    draw_status_bar(panels, areas.status, window_->capabilities());
-    draw_keys_window(panels);
-    end_widget_frame(panels);
+    ImGuiStack stack;
+    attempt([&] {
+        Areas areas = arrange(ui_.window.layout, display, scale, ui_.show_log);
+        if (drag_splitters(ui_.window.layout, areas, scale))
+            areas = arrange(ui_.window.layout, display, scale, ui_.show_log);
+        draw_panels(panels, areas);
+        viewport_.draw(panels, areas.viewport, *window_);
+        draw_status_bar(panels, areas.status, window_->capabilities());
+        draw_keys_window(panels);
+        end_widget_frame(panels);
+    });
+    stack.unwind(); // nothing to do unless an exception ended the above
     window_->end_frame();
 }
 

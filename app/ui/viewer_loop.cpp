@@ -5,8 +5,8 @@
 #include "app/ui/open.h"
 #include "app/ui/style.h"
 #include "app/ui/viewer_app.h"
-#include "core/error.h"
 #include "core/log.h"
+#include "core/problem.h"
 
 #include <algorithm>
 #include <chrono>
@@ -42,9 +42,10 @@ void ViewerApp::run() {
         wait();
         if (window_->gpu_was_reset() || (rendered_ == options_.simulate_reset && !reset_simulated_))
             recover_from_reset();
-        hear();
+        attempt([&] { hear(); });
         double start = seconds_now();
-        bool rendered = render_if_wanted();
+        bool rendered = false;
+        attempt([&] { rendered = render_if_wanted(); });
         bool visible = window_->framebuffer_size().x > 0;
         if (visible && (rendered || gui_frames_ > 0)) {
             draw();
@@ -79,21 +80,24 @@ void ViewerApp::wait() {
         window_->wait_events(until - now);
 }
 
-/// Bad input costs a line in the status bar and the log, never the program.
+/// Whatever goes wrong costs a line in the status bar and the log, never the program or the picture.
 void ViewerApp::attempt(const std::function<void()>& action) {
     try {
         action();
-    } catch (const Error& error) {
-        ui_.say(error.what(), true);
-        spdlog::error("{}", error.what());
-        gui_frames_ = 4;
+    } catch (const std::exception& problem) {
+        std::string text = problem_text(problem);
+        if (text != ui_.notice) { // not once a frame
+            spdlog::error("{}", text);
+            gui_frames_ = 4;
+        }
+        ui_.say(text, true);
     }
 }
 
 void ViewerApp::hear() {
     if (window_->take_activity() || viewport_.busy() || ImGui::IsAnyItemActive()) gui_frames_ = 4;
     if (std::exchange(ui_.redraw_panels, false)) gui_frames_ = std::max(gui_frames_, 1);
-    if (window_->take_scale_change()) make_interface();
+    if (window_->take_scale_change()) attempt([&] { make_interface(); });
     PanelContext panels = context();
     for (const std::string& chord : window_->take_keys())
         obey(chord);

@@ -4,7 +4,7 @@
 #include "app/ui/live_comparison.h"
 #include "app/ui/style.h"
 #include "app/ui/widget_rects.h"
-#include "core/error.h"
+#include "core/problem.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,8 +29,8 @@ const GpuTexture* Viewport::texture_to_show(PanelContext& context) {
                 failure_.clear();
                 return pair;
             }
-        } catch (const Error& error) {
-            context.ui.say(error.what(), true); // the graph's own picture is shown instead
+        } catch (const std::exception& problem) {
+            context.ui.say(problem_text(problem), true); // the graph's own picture is shown instead
         }
     }
     ViewerSettings settings = shown_view(graph, context.ui);
@@ -50,8 +50,8 @@ const GpuTexture* Viewport::texture_to_show(PanelContext& context) {
         view_->draw(*source, settings);
         failure_.clear();
         return &view_->picture();
-    } catch (const Error& error) {
-        failure_ = error.what();
+    } catch (const std::exception& problem) {
+        failure_ = problem_text(problem);
         return nullptr;
     }
 }

@@ -1,6 +1,7 @@
 // The part of Graph that runs a frame.
 #include "core/error.h"
 #include "core/log.h"
+#include "core/problem.h"
 #include "gpu/capabilities.h"
 #include "graph/graph.h"
 
@@ -100,9 +101,10 @@ void Graph::run_pass(const PlanPass& pass, int from, int to) {
                 node.pass->execute(context);
             }
             broke_.erase(pass.id);
-        } catch (const Error& error) {
-            if (broke_[pass.id] != error.what()) spdlog::error("pass '{}': {}", pass.id, error.what());
-            broke_[pass.id] = error.what();
+        } catch (const std::exception& problem) {
+            std::string text = problem_text(problem);
+            if (broke_[pass.id] != text) spdlog::error("pass '{}': {}", pass.id, text);
+            broke_[pass.id] = text;
             fill_failed(pass);
         }
     } else {

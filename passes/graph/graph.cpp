@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/log.h"
+#include "core/problem.h"
 #include "core/text.h"
 #include "gpu/capabilities.h"
 
@@ -49,10 +50,11 @@ void Graph::prepare(const SceneFacts& facts, glm::ivec2 size) {
     try {
         plan_again(facts, size);
         plan_problem_.clear();
-    } catch (const Error& error) {
+    } catch (const std::exception& problem) {
         if (!planned_) throw;
-        if (plan_problem_ != error.what()) spdlog::error("{}", error.what());
-        plan_problem_ = error.what();
+        std::string text = problem_text(problem);
+        if (plan_problem_ != text) spdlog::error("{}", text);
+        plan_problem_ = text;
     }
     build_programs();
     watch();
@@ -185,7 +187,7 @@ bool Graph::poll_files() {
                 Plan plan = next->plan(planned_facts_, plan_.size);
                 allocations_.update(plan);
                 plan_ = std::move(plan);
-            } catch (const Error&) {
+            } catch (...) {
                 model_->adopt_programs(*next); // the old graph goes on as it was
                 throw;
             }
@@ -194,8 +196,8 @@ bool Graph::poll_files() {
             plan_problem_.clear();
             spdlog::info("graph '{}' reloaded", model_->file().name);
             reset_history();
-        } catch (const Error& error) {
-            file_problem_ = error.what();
+        } catch (const std::exception& problem) {
+            file_problem_ = problem_text(problem);
             spdlog::error("{}", file_problem_);
         }
     }

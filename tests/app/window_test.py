@@ -248,6 +248,34 @@ class Window(ProgramTest):
         self.wait(lambda state: state["notice_is_error"] and "overwrite" in state["notice"], "the refusal to overwrite")
         self.assert_good(self.run_program("render", self.shot, "--graph", "bright", "-q", "-o", "bright.png"))
 
+    def test_whatever_goes_wrong_the_picture_stays(self):
+        """What is thrown by the file system, the JSON library and others is told as the program's own errors are."""
+        state_file = self.folder / "state/bounce/window.json"
+        state_file.parent.mkdir(parents=True)
+        state_file.write_text(json.dumps({"version": 1, "shot": "x" * 5000, "graph": "y" * 5000}))
+        self.open(*SMALL, "--size", "%dx%d" % PICTURE)
+        state = self.wait(lambda state: state["notice_is_error"], "what became of the last run's shot")
+        self.assertIn("cannot be opened again", state["notice"])
+        x0, y0, x1, y1 = map(round, state["widgets"]["viewport"])
+        before = self.display.pixels(x0, y0, x1, y1)
+        deep = self.folder / "deep.json"
+        deep.write_text("[" * 100000)
+        twice = self.folder / "twice.json"
+        twice.write_text('{"scene": "a.gltf", "scene": "b.gltf"}')
+        odd = self.folder / "odd.json"
+        odd.write_text('{"scene": 5, "objects": 7}')
+        for path, words in (("/" + "x" * 300 + ".gltf", "File name too long"), (deep, "nested more than 64 levels"), (twice, "twice"), (odd, "scene")):
+            self.click("scene.path")
+            self.input("key", "ctrl+a")
+            subprocess.run(["xdotool", "type", "--delay", "5", str(path)], env=self.environment(), check=True, timeout=60)
+            self.input("key", "Return")
+            state = self.wait(lambda state: words in state["notice"], words)
+            self.assertTrue(state["notice_is_error"])
+            self.assertEqual(state["shot"], "cornell")
+        self.assertEqual(self.display.pixels(x0, y0, x1, y1), before)
+        self.input("key", "ctrl+q")
+        self.wait_for_exit()
+
     def test_the_picture_against_the_reference(self):
         self.open(self.shot, *SMALL, "--size", "%dx%d" % PICTURE, "--set", "direct.shadows=false")
         self.click("tab.Compare")
