@@ -1,5 +1,10 @@
 // A running graph outlives every edit: the last good program and the last good plan stay.
+#include "gpu/objects.h"
 #include "graph/graph_test.h"
+
+#include <cstdlib>
+#include <iostream>
+#include <malloc.h>
 
 using namespace bounce;
 using testing::AllOf;
@@ -264,6 +269,46 @@ TEST_F(Reload, AProgramThatHungTheGpuStaysDisabledUntilItIsEdited) {
     next(run);
     EXPECT_EQ(red(run), 3);
     EXPECT_EQ(run.problems(), "");
+}
+
+/// BOUNCE_RELOADS=10000 does as many; a few are enough to see what each of them leaves behind.
+TEST_F(Reload, TenThousandReloadsLeaveNothingBehind) {
+    const char* asked = std::getenv("BOUNCE_RELOADS");
+    const int reloads = asked ? std::max(40, std::atoi(asked)) : 300;
+    fill_shader("fill.comp", "a_image", "1");
+    GraphRunner run(graph_file(k_graph));
+    run.frame();
+    size_t bytes = 0;
+    int objects = 0;
+    GLuint name = 0;
+    for (int i = 0; i < reloads; ++i) {
+        // Good, broken for the compiler, broken for ours, and other parameters, in turn.
+        const int kind = i % 5;
+        if (kind == 3)
+            root.write("glsl/fill.comp", std::string("uniform float bad = 1.0; //! [2, 0] bad\n"));
+        else
+            fill_shader("fill.comp", "a_image",
+                        kind == 1   ? "undeclared"
+                        : kind == 2 ? "gain"
+                                    : std::to_string(kind),
+                        kind == 2 ? "uniform float gain = 7.0; //! [0, 9] gain" : "");
+        next(run);
+        EXPECT_EQ(run.problems().empty(), kind != 1 && kind != 3) << run.problems();
+        EXPECT_EQ(red(run), kind == 4 ? 4 : kind == 0 || kind == 1 ? 0 : 7) << i;
+        if (i != reloads / 4 && i + 1 != reloads) continue;
+        glFinish();
+        GLuint next_name = glCreateProgram();
+        glDeleteProgram(next_name);
+        if (i + 1 < reloads) {
+            bytes = mallinfo2().uordblks, objects = live_objects().total(), name = next_name;
+            continue;
+        }
+        EXPECT_EQ(live_objects().total(), objects);
+        EXPECT_LE(next_name, name + 4) << "names of programs and shaders are free again";
+        const double grown = double(mallinfo2().uordblks) - double(bytes);
+        std::cout << "grown by " << grown << " bytes in " << reloads - reloads / 4 << " reloads\n";
+        EXPECT_LT(grown, 1 << 20);
+    }
 }
 
 TEST_F(Reload, UniformsWithoutSourceAreAnError) {
