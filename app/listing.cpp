@@ -2,13 +2,11 @@
 
 #include "core/asset_files.h"
 #include "core/error.h"
-#include "core/image.h"
+#include "core/json_text.h"
 #include "core/metric_table.h"
 #include "core/paths.h"
 #include "core/text.h"
 #include "scene/find_scene.h"
-
-#include <nlohmann/json.hpp>
 
 namespace bounce {
 
@@ -16,9 +14,12 @@ namespace bounce {
 static std::vector<std::string> preset_names() {
     std::vector<std::string> names;
     for (const std::string& name : asset_names("graphs")) {
-        const std::string text = read_file(assets_folder() / "graphs" / (name + ".json"));
-        const auto json = nlohmann::json::parse(text, nullptr, false, true);
-        if (json.is_object() && json.contains("extends")) names.push_back(name);
+        try {
+            const auto json = read_json_file(assets_folder() / "graphs" / (name + ".json"));
+            if (json.is_object() && json.contains("extends")) names.push_back(name);
+        } catch (const Error&) {
+            // A file that cannot be read is told by who opens it.
+        }
     }
     return names;
 }

@@ -21,7 +21,7 @@ struct SessionArguments {
     void add_to(CLI::App& command, bool shot_required);
     /// All but the shot and the graph, for commands that take several.
     void add_settings_to(CLI::App& command);
-    /// Throws Error for a malformed --set, --shader-limit, --size or --material-model. Sets the limits.
+    /// Throws Error for a malformed --set, --shader-limit, --size or --material-model. Sets the shader limits.
     SessionOptions options() const;
 };
 

@@ -61,7 +61,7 @@ std::string comparison_text(const ComparisonReport& report) {
             "The image is {0} times as wide and high as the reference: compared are means over {0} x {0} pixels.\n",
             report.pixels_a_side);
     for (const auto& [name, outside] :
-         {std::pair(report.image, report.image_outside), std::pair(report.reference, report.reference_outside)}) {
+         {std::pair(report.image, report.outside), std::pair(report.reference, report.reference_outside)}) {
         if (outside > 0)
             text += fmt::format("{:.1f} % of '{}' lies outside of its data window and counts as black.\n",
                                 100 * outside, name);
@@ -74,7 +74,7 @@ std::string comparison_json(const ComparisonReport& report) {
     json["image"] = report.image;
     json["reference"] = report.reference;
     json["means_over_pixels"] = report.pixels_a_side * report.pixels_a_side;
-    json["outside_data_window"] = report.image_outside;
+    json["outside_data_window"] = report.outside;
     json["reference_outside_data_window"] = report.reference_outside;
     json["edges_masked"] = report.comparison.edges_masked;
     json["kept_pixels"] = report.comparison.mask.share();

@@ -14,8 +14,8 @@ struct ComparisonReport {
     std::vector<SurfaceComparison> surfaces;
     int pixels_a_side = 1; ///< of the image for each of the reference
     int window = 1;        ///< of PartComparison::windowed
-    /// Shares of the pixels that lie outside of the files' data windows, where they count as black.
-    double image_outside = 0, reference_outside = 0;
+    /// The shares of both pictures for which their files hold no data (PicturePlace::outside).
+    double outside = 0, reference_outside = 0;
 };
 
 /// A table with a column for each metric that a person reads, and what it is measured over.

@@ -129,7 +129,7 @@ void LiveComparison::measure(bool shown) {
         const LayerComparison comparison = compare_layers(parts_, reference_, options);
         mask_ = comparison.mask;
         figures_ = comparison.parts.front().figures;
-    } catch (const Error& error) { // a NaN in the picture …
+    } catch (const std::exception& error) { // a NaN in the picture …
         figures_ = {};
         if (mask_.width != truth_.width || mask_.height != truth_.height) mask_ = Mask(truth_.width, truth_.height);
         std::lock_guard lock(mutex_);

@@ -59,7 +59,9 @@ Image part_of(const LayeredImage& image, const std::string& part, const std::str
 
 Image part_or_black(const LayeredImage& image, const std::string& part, const Image& like) {
     const std::vector<std::string> names = summands(part);
-    const bool there = std::any_of(names.begin(), names.end(), [&](auto& name) { return image.layers.contains(name); });
+    const bool there = std::any_of(names.begin(), names.end(), [&](auto& name) {
+        return image.layers.contains(name) || (name.empty() && picture_layer(image));
+    });
     return there ? part_of(image, part, "the image") : Image(like.width, like.height, like.channels);
 }
 

@@ -1,8 +1,8 @@
 // Writes OpenEXR files of named layers. They are encoded in memory, so that a file is written whole or not at all.
 
+#include "core/image_exr.h"
 #include "core/error.h"
 #include "core/exr_file.h"
-#include "core/image.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -88,7 +88,7 @@ void write_exr(const std::filesystem::path& path, const LayeredImage& image, con
         Imf::Header header(first.width, first.height);
         header.compression() = Imf::ZIP_COMPRESSION;
         if (!image.metadata.empty()) header.insert("bounce", Imf::StringAttribute(image.metadata));
-        if (!default_layer.empty()) header.insert(k_default_layer_attribute, Imf::StringAttribute(default_layer));
+        if (!default_layer.empty()) header.insert(k_exr_default_layer, Imf::StringAttribute(default_layer));
         Imf::FrameBuffer frame;
         for (const auto& [name, stored] : stored_layers(image, default_layer)) {
             const Image& layer = *stored;

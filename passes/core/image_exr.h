@@ -6,6 +6,9 @@
 
 namespace bounce {
 
+/// The attribute of our files that names the layer whose channels are stored under plain names (see exr_file.h).
+constexpr const char* k_exr_default_layer = "bounceDefaultLayer";
+
 /// A picture in the coordinates of its display window. What lies in the display window but outside of a part's data
 /// window is part of the picture, and black (0); what lies outside of the display window is not part of it.
 struct ExrPicture {

@@ -2,7 +2,6 @@
 #include "core/image_exr.h"
 
 #include "core/error.h"
-#include "core/exr_file.h"
 #include "core/scanner.h"
 
 #include <ImfChannelList.h>
@@ -135,6 +134,14 @@ Imath::Box2i intersection(const Imath::Box2i& a, const Imath::Box2i& b) {
             {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y)}};
 }
 
+/// Gives the layer that is stored under plain names its own.
+void name_default_layer(LayeredImage& image, const std::string& default_layer) {
+    auto plain = image.layers.find("");
+    if (default_layer.empty() || plain == image.layers.end()) return;
+    image.layers.emplace(default_layer, std::move(plain->second)); // unless it is there under its own name too
+    image.layers.erase("");
+}
+
 class Reader {
   public:
     Reader(const std::string& bytes, ExrChannels wanted)
@@ -151,11 +158,10 @@ class Reader {
                 throw Error("it is a deep image, whose pixels hold lists of samples: expected a flat one");
             if (const auto* text = header.findTypedAttribute<Imf::StringAttribute>("bounce"))
                 picture_.image.metadata = text->value();
-            if (const auto* text = header.findTypedAttribute<Imf::StringAttribute>(k_default_layer_attribute))
-                default_layer_ = text->value();
             read_part(part, header);
+            if (const auto* text = header.findTypedAttribute<Imf::StringAttribute>(k_exr_default_layer))
+                name_default_layer(picture_.image, text->value());
         }
-        name_default_layer();
         if (picture_.image.layers.empty())
             throw Error(wanted_ == ExrChannels::all ? "it has no channels" : "it has no channel R, G, B or Y");
         return std::move(picture_);
@@ -167,15 +173,6 @@ class Reader {
             throw Error(fmt::format("{} channels of {} pixels are more than 2 GiB or than the file can hold", channels,
                                     pixels));
         floats_left_ -= size_t(pixels) * channels;
-    }
-
-    /// What write_exr stored under plain channel names gets its own name back.
-    void name_default_layer() {
-        auto& layers = picture_.image.layers;
-        auto plain = layers.find("");
-        if (default_layer_.empty() || plain == layers.end()) return;
-        layers.emplace(default_layer_, std::move(plain->second)); // unless it is there under its own name too
-        layers.erase("");
     }
 
     void read_part(int part, const Imf::Header& header) {
@@ -222,7 +219,6 @@ class Reader {
     Imath::Box2i display_;
     int64_t size_ = 0;
     ExrPicture picture_;
-    std::string default_layer_;
 };
 
 } // namespace
