@@ -2,7 +2,6 @@
 
 #include "app/capture.h"
 #include "core/error.h"
-#include "core/json_text.h"
 #include "core/text.h"
 #include "graph/model.h"
 #include "reference/content_key.h"
@@ -22,13 +21,6 @@ static std::string digest_of_graph(const GraphModel& model) {
         hash.add(json.dump());
     }
     return hash.text();
-}
-
-/// The graph as it is, whatever is said about it and however its file is laid out.
-static std::string graph_text(const std::filesystem::path& path) {
-    nlohmann::ordered_json json = read_json_file<nlohmann::ordered_json>(path);
-    json.erase("about");
-    return json.dump();
 }
 
 const ContentReader::GraphContent& ContentReader::graph_content(const std::string& graph) {
