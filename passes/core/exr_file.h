@@ -5,9 +5,6 @@
 
 namespace bounce {
 
-/// The attribute that names the layer which plain channel names hold.
-constexpr const char* k_default_layer_attribute = "bounceDefaultLayer";
-
 /// As write_exr in image.h; `default_layer` is stored under plain channel names (Y, R G, R G B, R G B A), and beside
 /// other layers under its own name too. read_exr gives it its name back. Throws Error when there is no such layer.
 void write_exr(const std::filesystem::path& path, const LayeredImage& image, const std::string& default_layer);
