@@ -2,6 +2,7 @@
 
 #include "app/capture.h"
 #include "core/error.h"
+#include "core/json_text.h"
 #include "core/text.h"
 #include "graph/model.h"
 #include "reference/content_key.h"
@@ -16,7 +17,7 @@ static std::string digest_of_graph(const GraphModel& model) {
     ContentHash hash;
     for (const std::filesystem::path& file : model.files()) {
         if (file.extension() != ".json") continue; // the shaders are digested as they are expanded
-        nlohmann::ordered_json json = nlohmann::ordered_json::parse(read_file(file), nullptr, true, true);
+        nlohmann::ordered_json json = read_json_file<nlohmann::ordered_json>(file);
         json.erase("about");
         hash.add(json.dump());
     }
