@@ -2,6 +2,8 @@
 #include "core/image_exr.h"
 
 #include "core/error.h"
+#include "core/input_file.h"
+#include "core/limits.h"
 #include "core/scanner.h"
 
 #include <ImfChannelList.h>
@@ -41,11 +43,6 @@ class MemoryInput : public Imf::IStream {
     const std::string& bytes_;
     uint64_t position_ = 0;
 };
-
-/// Floats that a file may ask for (2 GiB), and for each of its bytes, beyond what any of the format's compressions
-/// reaches: a damaged header must not take all memory.
-constexpr size_t k_max_floats = size_t(1) << 29;
-constexpr size_t k_max_floats_per_byte = 10000;
 
 /// One channel of a part.
 struct Channel {
@@ -146,7 +143,7 @@ class Reader {
   public:
     Reader(const std::string& bytes, ExrChannels wanted)
         : stream_(bytes), file_(stream_), wanted_(wanted),
-          floats_left_(std::min(k_max_floats, k_max_floats_per_byte * bytes.size())) {}
+          floats_left_(std::min(k_max_exr_floats, k_max_exr_floats_per_byte * bytes.size())) {}
 
     ExrPicture read() {
         display_ = file_.header(0).displayWindow();
@@ -224,9 +221,14 @@ class Reader {
 } // namespace
 
 ExrPicture read_exr_picture(const std::filesystem::path& path, ExrChannels channels) {
-    std::string bytes = read_file(path);
+    std::string bytes = read_file(path, k_max_exr_bytes);
     static std::once_flag once;
-    std::call_once(once, [] { Imf::setGlobalThreadCount(int(std::max(1u, std::thread::hardware_concurrency()))); });
+    std::call_once(once, [] {
+        Imf::setGlobalThreadCount(int(std::max(1u, std::thread::hardware_concurrency())));
+        // The library makes tables of a file's rows before anybody can look at its header.
+        Imf::Header::setMaxImageSize(k_max_picture_side, k_max_picture_side);
+        Imf::Header::setMaxTileSize(k_max_picture_side, k_max_picture_side);
+    });
     try {
         return Reader(bytes, channels).read();
     } catch (const std::exception& error) {

@@ -1,14 +1,17 @@
-// Whole files: read at once, written aside and renamed.
+// Whole files, written aside and renamed.
 
 #include "core/error.h"
 #include "core/image.h"
+#include "core/output_file.h"
 
 #include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <optional>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace bounce {
 
@@ -36,60 +39,95 @@ static int write_and_close(int descriptor, const std::string& bytes, bool sync) 
     return error;
 }
 
-void write_file_atomically(const fs::path& path, const std::string& bytes) {
-    auto fail = [&path](int error) -> void { throw Error("cannot write '" + path.string() + "': " + reason(error)); };
-    std::error_code ignored;
-    if (path.filename().empty()) throw Error("cannot write '" + path.string() + "': a file name is needed");
-    fs::path target = fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, ignored) : path;
-    if (fs::is_directory(target, ignored)) throw Error("cannot write '" + path.string() + "': it is a folder");
-
-    // A device or pipe cannot be replaced by a file: write into it.
-    if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) {
-        int descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
-        if (descriptor < 0) fail(errno);
-        if (int error = write_and_close(descriptor, bytes, false)) fail(error);
-        return;
-    }
-
-    fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, ignored)) {
-        throw Error("cannot write '" + path.string() + "': there is no folder '" + folder.string() + "'");
-    }
-    static std::atomic<unsigned> counter{0};
-    fs::path temporary = folder / (".bounce-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
-    int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor < 0) fail(errno);
-    struct stat old;
-    if (::stat(target.c_str(), &old) == 0) (void)!::fchmod(descriptor, old.st_mode & 07777);
-    int error = write_and_close(descriptor, bytes, true);
-    if (!error && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
-    if (error) {
-        ::unlink(temporary.c_str());
-        fail(error);
-    }
+[[noreturn]] static void fail(const fs::path& path, const std::string& why) {
+    throw Error("cannot write '" + path.string() + "': " + why);
 }
 
-std::string read_file(const fs::path& path) {
-    auto fail = [&path](int error) -> void { throw Error("cannot read '" + path.string() + "': " + reason(error)); };
-    int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) fail(errno);
-    struct stat info;
-    std::string bytes;
-    if (::fstat(descriptor, &info) == 0 && info.st_size > 0) bytes.reserve(size_t(info.st_size));
-    char buffer[1 << 16];
-    while (true) {
-        ssize_t count = ::read(descriptor, buffer, sizeof(buffer));
-        if (count == 0) break;
-        if (count > 0) {
-            bytes.append(buffer, size_t(count));
-        } else if (errno != EINTR) {
-            int error = errno;
-            ::close(descriptor);
-            fail(error);
-        }
+/// The file that a name stands for: links are followed. Throws for what cannot be a file.
+static fs::path target_of(const fs::path& path) {
+    std::error_code ignored;
+    if (path.filename().empty()) fail(path, "a file name is needed");
+    fs::path target = fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, ignored) : path;
+    if (fs::is_directory(target, ignored)) fail(path, "it is a folder");
+    return target;
+}
+
+/// A device or pipe cannot be replaced by a file: it is written into.
+static bool is_device(const fs::path& target) {
+    std::error_code ignored;
+    return fs::exists(target, ignored) && !fs::is_regular_file(target, ignored);
+}
+
+/// Opened without waiting: a pipe that nobody reads would hold the program here for ever.
+static int open_device(const fs::path& path, const fs::path& target) {
+    int descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (descriptor < 0) fail(path, errno == ENXIO ? "nobody reads from it" : reason(errno));
+    ::fcntl(descriptor, F_SETFL, 0); // writing may wait
+    return descriptor;
+}
+
+namespace {
+/// A new file beside the target; removed again unless it was renamed.
+class Aside {
+  public:
+    Aside(const fs::path& path, const fs::path& target) {
+        static std::atomic<unsigned> counter{0};
+        fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+        std::error_code ignored;
+        if (!fs::is_directory(folder, ignored)) fail(path, "there is no folder '" + folder.string() + "'");
+        // A name that is too long shows itself here already.
+        struct stat old;
+        if (::stat(target.c_str(), &old) == 0)
+            mode_ = old.st_mode & 07777;
+        else if (errno != ENOENT)
+            fail(path, reason(errno));
+        path_ = folder / (".bounce-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
+        descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor_ < 0) fail(path, reason(errno));
+        if (mode_) (void)!::fchmod(descriptor_, *mode_);
     }
-    ::close(descriptor);
-    return bytes;
+    ~Aside() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+        if (!path_.empty()) ::unlink(path_.c_str());
+    }
+    Aside(const Aside&) = delete;
+    Aside& operator=(const Aside&) = delete;
+
+    /// Returns 0 or an errno.
+    int write(const std::string& bytes) { return write_and_close(std::exchange(descriptor_, -1), bytes, true); }
+    int rename_to(const fs::path& target) {
+        if (::rename(path_.c_str(), target.c_str()) != 0) return errno;
+        path_.clear();
+        return 0;
+    }
+
+  private:
+    fs::path path_;
+    int descriptor_ = -1;
+    std::optional<mode_t> mode_;
+};
+} // namespace
+
+void check_writable(const fs::path& path) {
+    const fs::path target = target_of(path);
+    if (is_device(target)) {
+        // A pipe may get its reader later.
+        if (::access(target.c_str(), W_OK) != 0) fail(path, reason(errno));
+        return;
+    }
+    Aside aside(path, target);
+}
+
+void write_file_atomically(const fs::path& path, const std::string& bytes) {
+    const fs::path target = target_of(path);
+    if (is_device(target)) {
+        if (int error = write_and_close(open_device(path, target), bytes, false)) fail(path, reason(error));
+        return;
+    }
+    Aside aside(path, target);
+    int error = aside.write(bytes);
+    if (!error) error = aside.rename_to(target);
+    if (error) fail(path, reason(error));
 }
 
 } // namespace bounce

@@ -2,9 +2,11 @@
 
 #include "core/error.h"
 #include "core/image.h"
+#include "core/image_budget.h"
+#include "core/input_file.h"
+#include "core/limits.h"
 
 #include <algorithm>
-#include <climits>
 #include <memory>
 #include <stb_image.h>
 #include <stb_image_write.h>
@@ -22,17 +24,18 @@ struct Decoded {
 
 static void check_size(size_t size, const std::string& what) {
     if (size == 0) throw Error(what + ": the image is empty (0 bytes)");
-    if (size > size_t(INT_MAX)) throw Error(what + ": the image file is larger than 2 GiB");
+    if (size > k_max_image_bytes) // the decoder counts in an int
+        throw Error(what + ": the image has " + grouped(size) + " bytes; expected at most " +
+                    grouped(k_max_image_bytes));
 }
 
 Image8 decode_image8(const uint8_t* data, size_t size, const std::string& what) {
     check_size(size, what);
+    check_texture_budget(declared_size(data, size, what).pixels(), what);
     Decoded<uint8_t> decoded;
     int channels = 0;
     decoded.pixels.reset(stbi_load_from_memory(data, int(size), &decoded.width, &decoded.height, &channels, 4));
-    if (!decoded.pixels) {
-        throw Error(what + ": not an image that can be read (" + stbi_failure_reason() + "); PNG, JPEG, BMP or TGA is");
-    }
+    if (!decoded.pixels) throw Error(what + ": the image is damaged (" + stbi_failure_reason() + ")");
     Image8 image;
     image.width = decoded.width;
     image.height = decoded.height;
@@ -41,17 +44,16 @@ Image8 decode_image8(const uint8_t* data, size_t size, const std::string& what) 
 }
 
 Image8 read_image8(const std::filesystem::path& path) {
-    std::string bytes = read_file(path);
+    std::string bytes = read_file(path, k_max_image_bytes);
     return decode_image8(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), "'" + path.string() + "'");
 }
 
 Image read_hdr(const std::filesystem::path& path) {
     std::string what = "'" + path.string() + "'";
-    std::string bytes = read_file(path);
+    std::string bytes = read_file(path, k_max_image_bytes);
     check_size(bytes.size(), what);
     const auto* data = reinterpret_cast<const uint8_t*>(bytes.data());
-    // stbi_loadf would read a PNG too, guessing a gamma: only the linear format is taken here.
-    if (!stbi_is_hdr_from_memory(data, int(bytes.size()))) throw Error(what + ": not a Radiance .hdr image");
+    check_hdr(data, bytes.size(), what);
     Decoded<float> decoded;
     int channels = 0;
     decoded.pixels.reset(

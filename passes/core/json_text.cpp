@@ -1,7 +1,7 @@
 #include "core/json_text.h"
 
 #include "core/error.h"
-#include "core/image.h"
+#include "core/input_file.h"
 #include "core/scanner.h"
 #include "core/text.h"
 
@@ -89,7 +89,7 @@ Json parse_json(std::string_view text, const std::string& what, JsonComments com
 
 template <class Json>
 Json read_json_file(const std::filesystem::path& path) {
-    return parse_json<Json>(read_file(path), path.string(), JsonComments::allowed);
+    return parse_json<Json>(read_file(path, k_max_json_text), path.string(), JsonComments::allowed);
 }
 
 template json parse_json(std::string_view, const std::string&, JsonComments, size_t);

@@ -30,9 +30,22 @@ fs::path root_folder() {
 }
 
 static fs::path user_folder(const char* variable, const char* below_home) {
-    const char* set = std::getenv(variable);
-    const char* home = std::getenv("HOME");
-    fs::path folder = set && *set ? fs::path(set) / "bounce" : fs::path(home ? home : "/tmp") / below_home / "bounce";
+    // A relative path would mean another folder in each place that the program is started from.
+    auto absolute = [](const char* name) {
+        const char* value = std::getenv(name);
+        return value && *value == '/' ? fs::path(value) : fs::path();
+    };
+    fs::path folder = absolute(variable);
+    if (folder.empty()) {
+        folder = absolute("HOME");
+        // Not /tmp: what others can write there cannot be relied on.
+        if (folder.empty())
+            throw Error(std::string("neither ") + variable +
+                        " nor HOME is set: expected the absolute path of a folder "
+                        "of one's own in one of them");
+        folder /= below_home;
+    }
+    folder /= "bounce";
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) throw Error("cannot create the folder '" + folder.string() + "': " + error.message());

@@ -77,7 +77,8 @@ std::string join(const std::vector<std::string>& parts, std::string_view separat
 std::string format_bytes(double bytes) {
     if (bytes < 1024) return fmt::format("{:.0f} B", bytes);
     if (bytes < 1024.0 * 1024) return fmt::format("{:.1f} KiB", bytes / 1024);
-    return fmt::format("{:.2f} MiB", bytes / (1024.0 * 1024));
+    if (bytes < 1024.0 * 1024 * 1024) return fmt::format("{:.2f} MiB", bytes / (1024.0 * 1024));
+    return fmt::format("{:.2f} GiB", bytes / (1024.0 * 1024 * 1024));
 }
 
 } // namespace bounce

@@ -2,6 +2,8 @@
 // in memory.
 
 #include "core/error.h"
+#include "core/input_file.h"
+#include "core/limits.h"
 #include "core/json_text.h"
 #include "reference/render.h"
 
@@ -39,7 +41,7 @@ void ReferenceRender::save_state(const std::filesystem::path& path) const {
 }
 
 void ReferenceRender::load_state(const std::filesystem::path& path) {
-    const std::string bytes = read_file(path);
+    const std::string bytes = read_file(path, k_max_state_bytes);
     auto fail = [&path](const std::string& why) -> void {
         throw Error("cannot resume from '" + path.string() + "': " + why);
     };
