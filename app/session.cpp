@@ -28,8 +28,7 @@ Session::Session(SessionOptions options) : options_(std::move(options)), timer_m
     shot_ = std::make_unique<Shot>(load_shot(options_.shot));
     if (options_.material_model) shot_->material_model = *options_.material_model;
     size_ = options_.size.value_or(glm::ivec2(shot_->width, shot_->height));
-    graph_ = std::make_unique<Graph>(find_graph(options_.graph), timer_mode_);
-    graph_->check_nan = graph_->check_nan || options_.check_nan;
+    graph_ = make_graph(options_.graph);
     apply_options(graph_->model(), options_);
     load_scene_to_gpu();
     graph_->prepare(facts_, size_); // so that a bad graph is told at once
@@ -37,10 +36,18 @@ Session::Session(SessionOptions options) : options_(std::move(options)), timer_m
 
 Session::~Session() = default;
 
+std::unique_ptr<Graph> Session::make_graph(const std::string& name) const {
+    auto graph = std::make_unique<Graph>(find_graph(name), timer_mode_);
+    graph->check_nan = graph->check_nan || options_.check_nan;
+    graph->set_default_rebuild(options_.rebuild);
+    return graph;
+}
+
 void Session::load_scene_to_gpu() {
     facts_ = shot_facts(*shot_);
     if (std::string strays = describe_strays(facts_); !strays.empty()) spdlog::warn("{}: {}", shot_->name, strays);
     gpu_scene_ = std::make_unique<GpuScene>(shot_->scene, shot_->environment);
+    rendered_frame_ = -1;
     scene_edited();
     has_last_view_ = false;
 }
@@ -59,15 +66,14 @@ void Session::open_shot(const std::string& name) {
     options_.material_model.reset();
     camera_.reset();
     frame_ = 0;
-    rendered_frame_ = -1;
     graph_->touch();
     graph_->reset_history();
 }
 
 void Session::open_graph(const std::string& name) {
-    auto next = std::make_unique<Graph>(find_graph(name), timer_mode_);
-    next->model().adopt_values(graph_->model());
-    next->check_nan = graph_->check_nan;
+    options_.check_nan = graph_->check_nan; // as it is switched now
+    std::unique_ptr<Graph> next = make_graph(name);
+    next->model().adopt_values(graph_->model().values());
     next->prepare(facts_, size_);
     graph_ = std::move(next);
     options_.graph = name;
@@ -105,9 +111,10 @@ void Session::render(bool whole) {
     if (scene_dirty_) {
         facts_ = shot_facts(*shot_);
         gpu_scene_->update_materials(shot_->scene.materials);
+        if (rendered_frame_ >= 0) gpu_scene_->scene_edited(evaluate_shot(*shot_, rendered_frame_).scene);
         scene_dirty_ = false;
     }
-    gpu_scene_->update(state_.scene);
+    gpu_scene_->update(state_.scene, facts_.animated_lights);
     graph_->prepare(facts_, size_);
 
     FrameConstants& c = constants_;
@@ -142,7 +149,6 @@ void Session::render(bool whole) {
 
 void Session::set_parameter(const std::string& name, const std::string& text, ParameterOrigin origin) {
     graph_->model().set(name, text, origin);
-    graph_->touch();
 }
 
 std::vector<std::pair<std::string, std::string>> Session::changed_parameters(ParameterOrigin at_least) const {
@@ -166,35 +172,22 @@ std::string Session::command_line(const std::string& output) const {
     if (options_.material_model)
         text += fmt::format(" --material-model {}", k_material_models[size_t(*options_.material_model)]);
     if (frame_ > 0) text += fmt::format(" --frames {}", frame_ + 1);
-    // What the graph file sets is part of the graph; values put back to their default by a person are not.
-    auto add = [&](const std::string& id, const ParameterSet& set) {
-        for (const Parameter& p : set.all()) {
-            if (p.origin >= ParameterOrigin::command_line) {
-                text += fmt::format(" --set {}.{}={}", id, p.info.name, to_text(p.info, p.value));
-            }
-        }
-    };
-    add("graph", graph_->model().graph_parameters());
-    for (const auto& node : graph_->model().nodes())
-        add(node->id(), node->parameters);
-    for (const auto& node : graph_->model().nodes())
-        if (node->enabled != node->entry.enabled) text += (node->enabled ? " --enable " : " --disable ") + node->id();
+    std::string options = graph_->model().values().options();
+    if (!options.empty()) text += " " + options;
     return text + " -o " + output;
 }
 
 void Session::release_gpu() {
-    kept_parameters_.clear();
-    for (const auto& changed : changed_parameters(ParameterOrigin::command_line))
-        kept_parameters_.push_back(changed);
+    kept_values_ = graph_->model().values();
+    options_.check_nan = graph_->check_nan;
     suspects_ = graph_->newest_program_files();
     graph_.reset();
     gpu_scene_.reset();
 }
 
 void Session::restore_gpu() {
-    graph_ = std::make_unique<Graph>(find_graph(options_.graph), timer_mode_);
-    for (const auto& [name, text] : kept_parameters_)
-        graph_->model().set(name, text, ParameterOrigin::panel);
+    graph_ = make_graph(options_.graph);
+    graph_->model().adopt_values(kept_values_);
     load_scene_to_gpu();
     graph_->prepare(facts_, size_);
     graph_->disable_programs(suspects_);

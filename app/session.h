@@ -23,6 +23,7 @@ struct SessionOptions {
     std::string resource;                                  ///< the passes that make it are switched on
     std::optional<glm::ivec2> size;                        ///< instead of the shot's
     std::optional<MaterialModel> material_model;           ///< instead of the shot's
+    Rebuild rebuild = Rebuild::every_frame;                ///< what graph.rebuild is unless it is set
     bool check_nan = false;
 };
 
@@ -80,7 +81,7 @@ class Session {
     const SceneState& scene_state() const { return state_.scene; }
     const FrameConstants& constants() const { return constants_; }
 
-    /// "id.parameter" from text; throws Error. The graph plans again at the next frame.
+    /// "id.parameter" from text; throws Error.
     void set_parameter(const std::string& name, const std::string& text, ParameterOrigin origin);
     /// Every parameter that is not at its default, as name and --set text.
     std::vector<std::pair<std::string, std::string>> changed_parameters(ParameterOrigin at_least) const;
@@ -95,6 +96,8 @@ class Session {
 
   private:
     void load_scene_to_gpu();
+    /// The graph of that name with the session's settings, for values to be put into. Throws Error.
+    std::unique_ptr<Graph> make_graph(const std::string& name) const;
 
     SessionOptions options_;
     std::unique_ptr<Shot> shot_;
@@ -113,7 +116,7 @@ class Session {
     bool scene_dirty_ = true;
     uint64_t edits_ = 0;
 
-    std::vector<std::pair<std::string, std::string>> kept_parameters_; ///< while the GPU is lost
+    GraphValues kept_values_; ///< while the GPU is lost
     std::vector<std::filesystem::path> suspects_;
 };
 

@@ -27,11 +27,14 @@ std::string timing_table(const Session& session) {
                                   std::getenv("BOUNCE_CPU_TIME") ? "CPU ms" : "GPU ms", "10 … 90 %", "MiB");
     for (const PlanPass& pass : graph.plan().passes) {
         PassTiming t = graph.timing(pass.id);
-        out += fmt::format("{:<24} {:>10.3f} {:>8.3f} … {:>7.3f} {:>10.2f}\n", pass.id, t.median, t.low, t.high,
+        std::string spread = t.unchanged ? "unchanged" : fmt::format("{:.3f} … {:>7.3f}", t.low, t.high);
+        out += fmt::format("{:<24} {:>10.3f} {:>18} {:>10.2f}\n", pass.id, t.unchanged ? t.last : t.median, spread,
                            mib(bytes_of_pass(graph.plan(), pass.id)));
     }
-    out += fmt::format("{:<24} {:>10.3f} {:>18} {:>10.2f}\n", "all passes", graph.frame_ms(), "",
-                       mib(graph.plan().total_bytes()));
+    bool on_change = graph.model().rebuild() == Rebuild::on_change;
+    out +=
+        fmt::format("{:<24} {:>10.3f} {:>18} {:>10.2f}\n", on_change ? "a frame, on the mean" : "all passes",
+                    graph.frame_ms(), on_change ? "rebuild on_change" : "every_frame", mib(graph.plan().total_bytes()));
     out += fmt::format("{:<24} {:>10} {:>18} {:>10.2f}\n", "scene (geometry, textures)", "", "",
                        mib(session.gpu_scene().geometry_bytes() + session.gpu_scene().texture_bytes()));
     for (const CounterValue& counter : graph.counters())
@@ -52,6 +55,9 @@ void write_timings(const Session& session, const std::filesystem::path& path) {
                                   {"p10_ms", t.low},
                                   {"p90_ms", t.high},
                                   {"frames", t.samples},
+                                  {"unchanged", t.unchanged},
+                                  {"last_run_ms", t.last},
+                                  {"ms_per_frame", t.per_frame},
                                   {"bytes", bytes_of_pass(graph.plan(), pass.id)}});
     }
     json["counters"] = nlohmann::ordered_json::array();
@@ -63,6 +69,7 @@ void write_timings(const Session& session, const std::filesystem::path& path) {
     json["resources"] = nlohmann::ordered_json::object();
     for (const PlanResource& r : graph.plan().resources)
         json["resources"][r.name()] = r.total_bytes();
+    json["rebuild"] = graph.model().rebuild() == Rebuild::on_change ? "on_change" : "every_frame";
     json["total_ms"] = graph.frame_ms();
     json["total_bytes"] = graph.plan().total_bytes();
     write_file_atomically(path, json.dump(2) + "\n");

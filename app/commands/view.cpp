@@ -25,6 +25,7 @@ glm::ivec2 window_size(const std::string& text) {
 int view(const ViewArguments& arguments) {
     ViewOptions options = arguments.view;
     options.session = arguments.options();
+    options.session.rebuild = Rebuild::on_change;
     if (options.frames < 0 || options.frames > 1000000)
         throw Error(fmt::format("--frames {}: it is 1 … 1000000", options.frames));
     if (!arguments.window.empty()) options.window_size = window_size(arguments.window);

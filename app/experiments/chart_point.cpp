@@ -33,6 +33,12 @@ std::string PointTask::command() const {
     return text + " --timings t.json -o x.exr";
 }
 
+std::string PointTask::rebuild() const {
+    for (const auto& [name, value] : session.sets)
+        if (name == "graph.rebuild") return value;
+    return "every_frame";
+}
+
 std::string PointTask::name() const {
     std::string text = fmt::format("{} {} {} {}", command(), frames, reference_noise, reference_samples);
     for (const std::string& part : parts)

@@ -27,6 +27,8 @@ struct PointTask {
     std::string name() const;
     /// The command that makes this point's picture.
     std::string command() const;
+    /// What graph.rebuild is: "every_frame" unless the point sets it.
+    std::string rebuild() const;
     /// Shot, graph, values and switches in a few words.
     std::string label() const;
 };

@@ -55,6 +55,11 @@ std::vector<CostTableRow> rows_of(const ordered_json& json, const char* table, c
     return rows;
 }
 
+bool rebuilds_on_change(const CostTableColumn& column) {
+    return std::any_of(column.sets.begin(), column.sets.end(),
+                       [](auto& set) { return set.first == "graph.rebuild" && set.second == "on_change"; });
+}
+
 } // namespace
 
 CostTableFile load_cost_table(const std::string& name) {
@@ -131,9 +136,12 @@ CostTableMeasured measure_column(const CostTableFile& file, const CostTableColum
     }
     for (const CostTableRow& row : file.time) {
         std::optional<double> sum;
-        for (const std::string& id : row.parts) {
-            bool ran = std::any_of(plan.passes.begin(), plan.passes.end(), [&](auto& pass) { return pass.id == id; });
-            if (ran) sum = sum.value_or(0) + session.graph().timing(id).median;
+        bool on_change = session.graph().model().rebuild() == Rebuild::on_change;
+        for (const PlanPass& pass : plan.passes) {
+            bool asked = std::any_of(row.parts.begin(), row.parts.end(),
+                                     [&](const std::string& id) { return id == "*" || id == pass.id; });
+            PassTiming timing = session.graph().timing(pass.id);
+            if (asked) sum = sum.value_or(0) + (on_change ? timing.per_frame : timing.median);
         }
         measured.time_ms.push_back(sum);
         if (row.counted) measured.total_ms += sum.value_or(0);
@@ -220,6 +228,15 @@ std::string cost_table_markdown(const CostTableFile& file, const std::vector<Cos
                 out += " " + metric_text(metric, m.errors, m.absolute) + " |";
         }
         out += "\n\n";
+    }
+    if (!file.time.empty()) {
+        std::vector<std::string> columns;
+        for (const CostTableColumn& column : file.columns)
+            if (rebuilds_on_change(column)) columns.push_back(column.name);
+        out += columns.empty() ? "Every pass runs in every frame (graph.rebuild=every_frame).\n"
+                               : "Every pass runs in every frame (graph.rebuild=every_frame), but with "
+                                 "graph.rebuild=on_change, as means over the frames, in: " +
+                                     join(columns, "; ") + ".\n";
     }
     if (std::getenv("BOUNCE_CPU_TIME")) out += "Times are processor time of all threads together.\n";
     if (!file.published_by.empty()) out += "In brackets: " + file.published_by + ".\n";

@@ -5,6 +5,7 @@
 //     "columns": [{"name": "Sponza", "shot": "sponza", "set": {"occlusion_voxels.resolution": 512}}],
 //     "memory":  [{"name": "Occlusion voxels", "resources": ["voxels.occlusion"], "published": {"Sponza": 156.4}}],
 //     "time":    [{"name": "Voxelization", "passes": ["occlusion_voxels"], "published": {"Sponza": 5.3}}],
+//                "passes": ["*"] is the whole frame
 //     "counts":  [{"name": "Lists in all, MB", "counters": ["fragments of all maps"], "times": 8e-6, "published":
 //     {…}}], "errors":  {"samples": 256, "metrics": ["bias"]},   against the reference of each column's transport, if
 //     wanted "published_by": "LRSM paper, GTX 770" }
@@ -54,7 +55,8 @@ struct CostTableMeasured {
     double total_mb = 0, total_ms = 0; ///< of the rows
 };
 
-/// Renders `warm_up` + `frames` frames; times are medians. Throws Error.
+/// Renders `warm_up` + `frames` frames; times are medians, or means over the frames where the column sets
+/// graph.rebuild=on_change. Throws Error.
 CostTableMeasured measure_column(const CostTableFile& file, const CostTableColumn& column,
                                  std::optional<glm::ivec2> size, int warm_up, int frames);
 

@@ -77,7 +77,7 @@ std::string chart_csv(const std::vector<ChartPoint>& points) {
     header.push_back("pareto");
     for (const std::string& pass : passes)
         header.insert(header.end(), {pass + "_ms", pass + "_p10_ms", pass + "_p90_ms"});
-    header.insert(header.end(), {"renderer", "driver", "machine", "measured", "commit", "command"});
+    header.insert(header.end(), {"renderer", "driver", "machine", "measured", "commit", "rebuild", "command"});
     for (std::string& name : header)
         name = csv_field(name);
     std::string out = join(header, ",") + "\n";
@@ -106,7 +106,8 @@ std::string chart_csv(const std::vector<ChartPoint>& points) {
                 for (double v : {pass->median_ms, pass->low_ms, pass->high_ms})
                     number(v);
         }
-        row.insert(row.end(), {p.renderer, p.driver, p.machine, p.measured, p.content.commit, p.task.command()});
+        row.insert(row.end(),
+                   {p.renderer, p.driver, p.machine, p.measured, p.content.commit, p.task.rebuild(), p.task.command()});
         for (std::string& field : row)
             field = csv_field(field);
         out += join(row, ",") + "\n";

@@ -36,7 +36,6 @@ void switch_views(PanelContext& context, bool on) {
     for (const char* id : {k_inspect, k_view}) {
         if (model.find_node(id)) model.switch_pass(id, on);
     }
-    context.session.graph().touch();
     context.ui.redraw();
 }
 
@@ -64,8 +63,7 @@ void send_pixel(PanelContext& context) {
     Parameter& parameter = session.graph().model().parameter(fmt::format("{}.pixel", k_inspect));
     std::string text = fmt::format("{:.6g},{:.6g}", place.x, place.y);
     if (to_text(parameter.info, parameter.value) == text) return;
-    // No touch(): neither sizes nor shaders depend on it, so the plan stays.
-    session.graph().model().set(fmt::format("{}.pixel", k_inspect), text, ParameterOrigin::panel);
+    session.set_parameter(fmt::format("{}.pixel", k_inspect), text, ParameterOrigin::panel);
     ui.redraw();
 }
 

@@ -69,7 +69,6 @@ void draw_problems(const Graph& graph) {
 void switch_passes(Session& session, UiState& ui, const std::vector<std::string>& ids, bool on) {
     for (const std::string& id : ids)
         if (PassNode* node = session.graph().model().find_node(id)) node->enabled = on;
-    session.graph().touch();
     ui.redraw();
 }
 
@@ -98,18 +97,28 @@ void draw_time(const PassTiming& timing, double slowest) {
     float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
     auto at = [&](double ms) { return from.x + width * float(slowest > 0 ? std::min(ms / slowest, 1.0) : 0.0); };
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(from, ImVec2(std::max(at(timing.median), from.x + 1), from.y + height),
-                       ImGui::GetColorU32(k_bar_colour), 2);
-    if (timing.samples > 1) {
+    if (!timing.unchanged) {
+        list.AddRectFilled(from, ImVec2(std::max(at(timing.median), from.x + 1), from.y + height),
+                           ImGui::GetColorU32(k_bar_colour), 2);
+    }
+    if (timing.samples > 1 && !timing.unchanged) {
         float y = from.y + height - 2;
         list.AddLine(ImVec2(at(timing.low), y), ImVec2(at(timing.high), y), ImGui::GetColorU32(ImGuiCol_Text), 1);
     }
-    show_text(timing.samples ? fmt::format(" {:.3f}", timing.median) : " -");
+    if (timing.unchanged)
+        show_text(fmt::format(" unchanged ({:.3f})", timing.last), k_dim_colour);
+    else
+        show_text(timing.samples ? fmt::format(" {:.3f}", timing.median) : " -");
 }
 
 std::string time_text(const PassTiming& timing) {
+    if (timing.unchanged) {
+        return fmt::format("unchanged: none of its inputs differs, so what it made stands (graph.rebuild=on_change)\n"
+                           "its last run took GPU {:.3f} ms",
+                           timing.last);
+    }
     if (!timing.samples) return "not timed yet";
-    return fmt::format("GPU {:.3f} ms, median of {} frames\n10 to 90 % lie from {:.3f} to {:.3f} ms", timing.median,
+    return fmt::format("GPU {:.3f} ms, median of {} runs\n10 to 90 % lie from {:.3f} to {:.3f} ms", timing.median,
                        timing.samples, timing.low, timing.high);
 }
 

@@ -81,11 +81,4 @@ void reset_parameters(PanelContext& context, const std::vector<std::string>& nam
     push_undo(context, names.size() == 1 ? "reset " + names.front() : "reset all", before, after);
 }
 
-std::string set_options(const std::vector<std::pair<std::string, std::string>>& values) {
-    std::vector<std::string> parts;
-    for (const auto& [name, text] : values)
-        parts.push_back("--set " + name + "=" + text);
-    return join(parts, " ");
-}
-
 } // namespace bounce

@@ -38,7 +38,4 @@ struct NamedParameter {
 };
 std::vector<NamedParameter> all_parameters(const GraphModel& model);
 
-/// "--set a.b=c --set d.e=f".
-std::string set_options(const std::vector<std::pair<std::string, std::string>>& values);
-
 } // namespace bounce

@@ -60,7 +60,7 @@ void draw_menu(PanelContext& context, const std::string& name, const Parameter& 
     if (ImGui::MenuItem("Reset")) reset_parameters(context, {name});
     note_widget(name + ".reset");
     if (ImGui::MenuItem("Copy as --set")) {
-        std::string option = set_options({{name, to_text(parameter.info, parameter.value)}});
+        std::string option = "--set " + name + "=" + to_text(parameter.info, parameter.value);
         ImGui::SetClipboardText(option.c_str());
         context.ui.say("copied: " + option);
     }
@@ -147,11 +147,13 @@ void draw_tools(PanelContext& context, const std::vector<NamedParameter>& all) {
     if (ImGui::SmallButton("reset all")) reset_parameters(context, set);
     note_widget("parameters.reset_all");
     show_tooltip(fmt::format("Puts {} parameters back to the graph's values.", set.size()));
+    ImGui::EndDisabled();
     ImGui::SameLine();
+    std::string options = context.session.graph().model().values().options();
+    ImGui::BeginDisabled(options.empty());
     if (ImGui::SmallButton("copy all as --set")) {
-        std::string text = set_options(context.session.changed_parameters(ParameterOrigin::command_line));
-        ImGui::SetClipboardText(text.c_str());
-        ui.say("copied: " + text);
+        ImGui::SetClipboardText(options.c_str());
+        ui.say("copied: " + options);
     }
     note_widget("parameters.copy_all");
     ImGui::EndDisabled();

@@ -19,6 +19,7 @@ enum Column { k_name, k_format, k_size, k_mips, k_bytes, k_writers, k_readers, k
 std::string kept_text(const PlanResource& resource) {
     std::vector<std::string> words;
     if (resource.declaration.persistent) words.push_back("persistent");
+    if (resource.declaration.incremental) words.push_back("incremental");
     if (resource.needs_previous) words.push_back("last frame's copy");
     return join(words, ", ");
 }

@@ -4,6 +4,7 @@
 #include "core/image.h"
 #include "core/paths.h"
 #include "core/scanner.h"
+#include "graph/model_values.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -47,6 +48,7 @@ std::string graph_preset_text(const Session& session) {
     try {
         json root = json::parse(read_file(file), nullptr, true, true);
         for (const Parameter& parameter : model.graph_parameters().all()) {
+            if (parameter.info.name == k_rebuild) continue; // how it is run, not what it is
             root.at("parameters").at(parameter.info.name)["default"] = value_json(parameter);
         }
         for (json& entry : root.at("passes")) {

@@ -2,7 +2,7 @@
 // volume (DVS, section V.B) and their number on the list, plus one, to voxels.place. The order on the list may differ from
 // run to run; no volume depends on it. One invocation goes through a brick of 4³ voxels, if voxels.bricks says that one of
 // them was written; afterwards it says which bricks hold anything.
-#include "dvs/list.glsl"
+#include "dvs/list_build.glsl"
 #include "dvs/fixed_point.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,5 +1,5 @@
 // After entries were added to the list: cuts the count to what the list holds, and sets the groups of dispatches over it.
-#include "dvs/list.glsl"
+#include "dvs/list_build.glsl"
 
 layout(local_size_x = 1) in;
 

@@ -1,5 +1,5 @@
 // After the dynamic voxels were cleared: the list ends where the static voxels end.
-#include "dvs/list.glsl"
+#include "dvs/list_build.glsl"
 
 layout(local_size_x = 1) in;
 

@@ -1,35 +1,34 @@
 #ifndef LIB_FRAME_GLSL
 #define LIB_FRAME_GLSL
-// The frame's constants, and what follows from them. passes/graph/frame_constants.h mirrors the block.
+// The frame's constants, and what follows from them. passes/graph/frame_constants.cpp lists them. Plain uniforms: only
+// those that a program really uses make its pass depend on them.
 
-layout(std140) uniform Frame {
-    mat4 view;            // world → camera
-    mat4 projection;      // reversed depth: 1 at the near plane, 0 at infinity; row 0 at the top
-    mat4 view_projection;
-    mat4 inverse_view_projection;
-    mat4 previous_view_projection;
-    vec3 camera_position; // metres
-    float time;           // seconds
-    vec3 camera_right;
-    float tan_half_vfov;
-    vec3 camera_up;
-    float near_plane;
-    vec3 camera_forward;
-    float aspect;
-    vec3 scene_min; // bounds over the whole animation, without strays (passes/scene/extent.h)
-    float scene_diagonal;
-    vec3 scene_max;
-    float delta_time;
-    vec3 environment_radiance; // W/(sr·m²)
-    int environment_map;       // 1: multiply by the map
-    ivec2 resolution;
-    int frame_index;
-    int light_count;
-    int diffuse_only; // every material is Lambert with rho = base_colour·(1 − metallic)
-    int shadow_view_count;
-    int normal_maps;
-    int material_model; // 0 plain, 1 gltf, 2 appendix_b: lib/material_model.glsl
-};
+uniform mat4 view;       // world → camera
+uniform mat4 projection; // reversed depth: 1 at the near plane, 0 at infinity; row 0 at the top
+uniform mat4 view_projection;
+uniform mat4 inverse_view_projection;
+uniform mat4 previous_view_projection; // whoever reads it follows the camera's motion: its history outlasts it
+uniform vec3 camera_position;          // metres
+uniform vec3 camera_right;
+uniform vec3 camera_up;
+uniform vec3 camera_forward;
+uniform float tan_half_vfov;
+uniform float near_plane;
+uniform float aspect;
+uniform ivec2 resolution;
+uniform float time; // seconds
+uniform float delta_time;
+uniform int frame_index;
+uniform vec3 scene_min; // bounds over the whole animation, without strays (passes/scene/extent.h)
+uniform vec3 scene_max;
+uniform float scene_diagonal;
+uniform vec3 environment_radiance; // W/(sr·m²)
+uniform int environment_map;       // 1: multiply by the map
+uniform int light_count;
+uniform int diffuse_only; // every material is Lambert with rho = base_colour·(1 − metallic)
+uniform int shadow_view_count;
+uniform int normal_maps;
+uniform int material_model; // 0 plain, 1 gltf, 2 appendix_b: lib/material_model.glsl
 
 // The direction through a pixel's centre, with a forward component of 1 (so that distance along the view is a factor).
 vec3 pixel_ray(vec2 pixel) {

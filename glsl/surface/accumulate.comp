@@ -1,6 +1,6 @@
-// Progressive rendering: the mean of a picture over the frames since the view last moved, in place (LDM, section 6: views
-// that turn from frame to frame average out). Whatever else moves lags behind by up to `most_frames`.
-#include "lib/frame.glsl"
+// Progressive rendering: the mean of a picture over the frames, in place (LDM, section 6: views that turn from frame to
+// frame average out). The graph clears the mean when anything but the passing of frames changes the picture; what moves by
+// itself lags behind by up to `most_frames`.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -13,7 +13,6 @@ void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(texel, imageSize(accumulate_picture)))) return;
     vec4 mean = imageLoad(accumulate_mean, texel);
-    if (previous_view_projection != view_projection) mean = vec4(0.0);
     float frames = min(mean.a + 1.0, float(most_frames));
     mean = vec4(mix(mean.rgb, imageLoad(accumulate_picture, texel).rgb, 1.0 / frames), frames);
     imageStore(accumulate_mean, texel, mean);

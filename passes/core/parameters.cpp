@@ -266,19 +266,6 @@ void ParameterSet::reset(std::string_view name) {
     set(name, require(*this, name).info.default_value, ParameterOrigin::default_value);
 }
 
-void ParameterSet::adopt(const ParameterSet& old) {
-    for (Parameter& parameter : parameters_) {
-        const Parameter* before = old.find(parameter.info.name);
-        if (!before || before->origin < ParameterOrigin::command_line) continue;
-        if (before->info.kind != parameter.info.kind) continue;
-        try {
-            set(parameter.info.name, before->value, before->origin);
-        } catch (const Error&) {
-            // The new range excludes the old value: the new default stands.
-        }
-    }
-}
-
 std::vector<std::string> ParameterSet::names() const {
     std::vector<std::string> names;
     for (const Parameter& parameter : parameters_)

@@ -101,9 +101,6 @@ class ParameterSet {
     void set_json(std::string_view name, const nlohmann::json& json, ParameterOrigin origin);
     void reset(std::string_view name);
 
-    /// Takes over values that a person set (command line, panel) from the set this one replaces, by name and kind.
-    void adopt(const ParameterSet& old);
-
     std::vector<Parameter>& all() { return parameters_; }
     const std::vector<Parameter>& all() const { return parameters_; }
     std::vector<std::string> names() const;

@@ -40,7 +40,7 @@ class VoxelDirectPass : public Pass {
         create_radiance(d, "dvs.radiance", two_sided_ ? "2" : "1", occupied_only_);
         d.uses("direct");
         d.reads("voxels.counts", Usage::indirect);
-        emission_ = d.facts.emissive_materials > 0;
+        emission_ = d.fact(&SceneFacts::emissive_materials) > 0;
     }
     void execute(PassContext& c) override {
         c.set("emission_scale", emission_ ? 1.0f : 0.0f);

@@ -4,7 +4,6 @@
 #include "graph/context.h"
 
 #include <bit>
-#include <cstring>
 #include <fmt/format.h>
 
 namespace bounce {
@@ -43,21 +42,21 @@ class VoxelizationPass : public Pass {
         if (!std::has_single_bit(unsigned(resolution_)))
             throw Error(fmt::format("resolution {} is no power of two: {} and {} are the nearest", resolution_,
                                     std::bit_floor(unsigned(resolution_)), std::bit_ceil(unsigned(resolution_))));
-        emission_ = d.facts.emissive_materials > 0;
+        emission_ = d.fact(&SceneFacts::emissive_materials) > 0;
         auto volume = [&](const char* name, const char* format) {
-            d.creates(name, texture_3d, format, {resolution_, resolution_, resolution_}).persistent = true;
+            d.creates(name, texture_3d, format, {resolution_, resolution_, resolution_}).incremental = static_once_;
         };
         volume("voxels.place", "r32ui");
         volume("voxels.flags", "r8ui");
         volume("voxels.albedo", "rgba8");
         volume("voxels.normal", "rgba8_snorm");
         int bricks = (resolution_ + 3) / 4;
-        d.creates("voxels.bricks", texture_3d, "r8ui", {bricks, bricks, bricks}).persistent = true;
+        d.creates("voxels.bricks", texture_3d, "r8ui", {bricks, bricks, bricks}).incremental = static_once_;
         if (emission_) volume("voxels.emission", "rgba16f");
         int64_t face = int64_t(resolution_) * resolution_;
         std::string room = std::to_string(std::min<int64_t>(face * room_, face * resolution_));
         auto list = [&](const char* name, const std::string& count, int stride) {
-            d.creates_buffer(name, count, stride).persistent = true;
+            d.creates_buffer(name, count, stride).incremental = static_once_;
         };
         list("voxels.list", room, 4);
         list("voxels.counts", "8", 4);
@@ -68,11 +67,13 @@ class VoxelizationPass : public Pass {
         } else {
             list("voxels.sums", room, averaging_ == Averaging::last_writer ? 4 : 13 * 4);
         }
-        d.creates_buffer("voxels.draw_starts", std::to_string(d.facts.instances + 1), 4).persistent = true;
+        d.creates_buffer("voxels.draw_starts", std::to_string(d.fact(&SceneFacts::instances) + 1), 4).incremental =
+            static_once_;
         d.writes("voxels.draw_starts", Usage::storage);
         if (averaging_ == Averaging::gather) {
             // Boxes around triangles, around 64 of them, and around 64 of those: two corners each.
-            uint64_t boxes = d.facts.triangles + d.facts.triangles / 64 + d.facts.triangles / 4096 + 2;
+            uint64_t triangles = d.fact(&SceneFacts::triangles);
+            uint64_t boxes = triangles + triangles / 64 + triangles / 4096 + 2;
             list("voxels.triangle_bounds", std::to_string(2 * boxes), 16);
             d.uses("triangle_bounds");
             d.uses("gather_fragments");
@@ -88,31 +89,28 @@ class VoxelizationPass : public Pass {
         d.counts("occupied voxels", "voxels.counts", 3);
         d.counts("of them of static geometry", "voxels.counts", 4);
         d.counts("voxels that the list has no room for", "voxels.counts", 5, true);
-        bool dynamic = d.facts.dynamic_instances > 0;
+        bool dynamic = d.fact(&SceneFacts::dynamic_instances) > 0;
         if (dynamic) d.uses("clear_dynamic"), d.uses("forget_dynamic");
     }
 
-    void reset_history() override { state_.clear(); }
-
     void execute(PassContext& c) override {
         float brightest = 0;
-        for (const Material& m : c.scene().material_list())
+        for (const Material& m : c.materials())
             brightest = std::max({brightest, m.emission.x, m.emission.y, m.emission.z});
         c.set("resolution_of_grid", resolution_);
         c.set("emission_scale", emission_ ? brightest : 0.0f);
 
-        std::vector<char> state = static_state(c);
-        if (state != state_) {
-            forget_all(c);
+        if (!c.stands("voxels.counts")) {
+            const uint32_t none[8] = {0, 0, 1, 0, 0, 0, 0, 0};
+            c.buffer("voxels.counts").update(0, sizeof(none), none);
             add(c, k_static, 0u);
-            state_ = std::move(state);
-        } else if (c.facts().dynamic_instances > 0) {
+        } else if (c.fact(&SceneFacts::dynamic_instances) > 0) {
             c.dispatch_indirect("clear_dynamic", "voxels.counts");
             wait();
             c.dispatch("forget_dynamic", {1, 1, 1});
             wait();
         }
-        if (c.facts().dynamic_instances > 0 && static_once_) add(c, k_dynamic, 1u);
+        if (c.fact(&SceneFacts::dynamic_instances) > 0 && static_once_) add(c, k_dynamic, 1u);
     }
 
   private:
@@ -129,49 +127,11 @@ class VoxelizationPass : public Pass {
                         GL_TEXTURE_FETCH_BARRIER_BIT);
     }
 
-    /// All that the static voxels depend on, as bytes; different every time when they are to be made in each frame.
-    std::vector<char> static_state(PassContext& c) {
-        std::vector<char> state;
-        auto add = [&](const auto& value) {
-            const char* bytes = reinterpret_cast<const char*>(&value);
-            state.insert(state.end(), bytes, bytes + sizeof(value));
-        };
-        if (!static_once_) add(++frames_);
-        add(resolution_), add(route_), add(averaging_), add(planes_), add(room_),
-            add(c.number(c.plan().id + ".emission_share").value_or(0)),
-            add(c.number(c.plan().id + ".leaf_threshold").value_or(0)),
-            add(c.number(c.plan().id + ".plane_coherence").value_or(0)),
-            add(c.number(c.plan().id + ".fill").value_or(0));
-        add(c.frame().scene_min), add(c.frame().scene_max); // the grid
-        for (const GpuDraw& draw : c.scene().draw_list()) {
-            if (draw.flags & 1u) continue;
-            add(draw.world), add(draw.material), add(draw.first_index), add(draw.index_count);
-        }
-        for (const Material& m : c.scene().material_list())
-            add(m.base_colour), add(m.emission), add(m.metallic), add(m.alpha_mode), add(m.alpha_cutoff),
-                add(m.double_sided);
-        return state;
-    }
-
-    void forget_all(PassContext& c) {
-        std::vector<const char*> volumes{"voxels.place", "voxels.flags", "voxels.bricks", "voxels.albedo",
-                                         "voxels.normal"};
-        if (emission_) volumes.push_back("voxels.emission");
-        if (averaging_ == Averaging::average) {
-            volumes.insert(volumes.end(), {"voxels.packed_albedo", "voxels.packed_normal"});
-            if (emission_) volumes.push_back("voxels.packed_emission");
-        }
-        for (const char* name : volumes)
-            c.texture(name).clear(glm::vec4(0));
-        const uint32_t none[8] = {0, 0, 1, 0, 0, 0, 0, 0};
-        c.buffer("voxels.counts").update(0, sizeof(none), none);
-    }
-
     /// Voxelizes the draws of one kind into voxels that no static geometry holds.
     void add(PassContext& c, int kind, uint32_t flag) {
         std::vector<uint32_t> starts{0};
         // A draw of the other kind has no triangles here.
-        for (const GpuDraw& draw : c.scene().draw_list())
+        for (const GpuDraw& draw : c.draws())
             starts.push_back(starts.back() + ((draw.flags & 1u) == flag || !static_once_ ? draw.index_count / 3 : 0));
         const Buffer& buffer = c.buffer("voxels.draw_starts");
         starts.resize(buffer.bytes() / sizeof(uint32_t), starts.back());
@@ -231,8 +191,6 @@ class VoxelizationPass : public Pass {
     Averaging averaging_ = Averaging::average;
     bool static_once_ = true, emission_ = false, planes_ = false;
     int room_ = 32;
-    std::vector<char> state_; ///< what the static voxels were made of; empty: there are none
-    uint64_t frames_ = 0;
 };
 
 BOUNCE_REGISTER_PASS("voxelization", VoxelizationPass,

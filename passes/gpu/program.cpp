@@ -1,5 +1,6 @@
 #include "gpu/program.h"
 
+#include "core/digest.h"
 #include "core/log.h"
 #include "gpu/objects.h"
 #include "gpu/shader_limits.h"
@@ -35,6 +36,10 @@ void Program::recall(std::vector<ShaderError> errors) {
 }
 
 void Program::scan(const Defines& defines, const Defines& static_values) {
+    if (scanned_ && defines == defines_ && static_values == static_values_) return;
+    scanned_ = true;
+    defines_ = defines;
+    static_values_ = static_values;
     sources_.clear();
     files_.clear();
     auto last_parameters = std::exchange(parameters_, {});
@@ -227,6 +232,10 @@ bool Program::build(const std::function<std::vector<std::string>(const ProgramIn
     ++live_objects().programs;
     glObjectLabel(GL_PROGRAM, id_, -1, name_.c_str());
     interface_ = std::move(found);
+    Digest text;
+    for (const ShaderSource& source : sources_)
+        text.add(source.text);
+    text_digest_ = text.value();
     up_to_date_ = true;
     disabled_ = false;
     return true;

@@ -44,10 +44,12 @@ class Program {
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
 
-    /// Reads the sources again (no OpenGL). Afterwards parameters(), slots(), files() are those of the files as they
-    /// are; while one cannot be read (an editor may be halfway through saving it), parameters and slots stay as they
-    /// were.
+    /// Reads the sources (no OpenGL), unless these defines and values are those of the last scan and no file is known
+    /// to have changed. Afterwards parameters(), slots(), files() are those of the files as they are; while one cannot
+    /// be read (an editor may be halfway through saving it), parameters and slots stay as they were.
     void scan(const Defines& defines, const Defines& static_values);
+    /// One of the files has changed: the next scan reads them again.
+    void files_changed() { scanned_ = false; }
     /// Compiles and links what was scanned; `check` may refuse the interface (it returns what is wrong). On success the
     /// new program replaces the old; on failure the last good one stays and errors() says why. Returns success.
     bool build(const std::function<std::vector<std::string>(const ProgramInterface&)>& check);
@@ -57,6 +59,8 @@ class Program {
     bool disabled() const { return disabled_; }     ///< by disable(), until the next successful build
     bool up_to_date() const { return up_to_date_; } ///< and it is the newest text
     GLuint id() const { return id_; }
+    /// Of the text that id() was made of; 0: there is none.
+    uint64_t text_digest() const { return id_ ? text_digest_ : 0; }
     const ProgramInterface& interface() const { return interface_; }
     const std::vector<ShaderError>& errors() const { return errors_; }
     const std::vector<std::filesystem::path>& files() const { return files_; }
@@ -81,7 +85,10 @@ class Program {
     std::vector<ShaderSlot> slots_;
     std::vector<ShaderError> errors_;
     ProgramInterface interface_;
+    Defines defines_, static_values_; ///< of the last scan
     GLuint id_ = 0;
+    uint64_t text_digest_ = 0;
+    bool scanned_ = false;
     bool up_to_date_ = false;
     bool read_once_ = false; ///< all files have been read without an error at some time
     bool disabled_ = false;

@@ -87,21 +87,22 @@ GpuTimer::~GpuTimer() {
     }
 }
 
-void GpuTimer::begin() {
+bool GpuTimer::begin() {
     if (mode_ == TimerMode::finish) {
         glFinish();
         started_ = finish_seconds();
-        return;
+        return true;
     }
     Pair& pair = ring_[head_];
-    recording_ = !pair.pending; // the ring is full: this measurement is skipped rather than waited for
-    if (!recording_) return;
+    recording_ = !pair.pending;
+    if (!recording_) return false;
     if (!pair.begin) {
         glCreateQueries(GL_TIMESTAMP, 1, &pair.begin);
         glCreateQueries(GL_TIMESTAMP, 1, &pair.end);
         live_objects().queries += 2;
     }
     glQueryCounter(pair.begin, GL_TIMESTAMP);
+    return true;
 }
 
 void GpuTimer::end() {

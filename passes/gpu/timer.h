@@ -22,7 +22,8 @@ class GpuTimer {
     GpuTimer(GpuTimer&& other) noexcept;
     GpuTimer& operator=(GpuTimer&&) = delete;
 
-    void begin();
+    /// False when the ring is full: this stretch is not measured rather than waited for.
+    bool begin();
     void end();
     /// Milliseconds of the newest finished measurement that was not yet taken; empty when none is ready.
     std::optional<double> take();

@@ -6,11 +6,10 @@
 
 namespace bounce {
 
-bool Allocations::update(const Plan& plan) {
+void Allocations::update(const Plan& plan) {
     std::vector<std::unique_ptr<Entry>> next;
     std::map<size_t, Entry> copies;                // last frame's, by new index: made before anything old is given up
     std::vector<std::pair<size_t, size_t>> reused; // new index, old index
-    bool history_lost = false;
     for (const PlanResource& resource : plan.resources) {
         auto fits = [&](const std::unique_ptr<Entry>& e) {
             return e && e->name == resource.name() && e->is_buffer == resource.is_buffer() &&
@@ -32,6 +31,7 @@ bool Allocations::update(const Plan& plan) {
         }
         auto entry = std::make_unique<Entry>();
         entry->name = resource.name();
+        entry->serial = ++made_;
         entry->is_buffer = resource.is_buffer();
         entry->desc = resource.texture;
         entry->bytes = resource.bytes;
@@ -42,7 +42,6 @@ bool Allocations::update(const Plan& plan) {
             entry->texture = GpuTexture(resource.texture, resource.name());
             entry->texture.clear(resource.declaration.neutral);
         }
-        history_lost = history_lost || resource.declaration.persistent || resource.needs_previous;
         next.push_back(std::move(entry));
     }
     for (auto [to, from] : reused)
@@ -56,16 +55,13 @@ bool Allocations::update(const Plan& plan) {
         } else if (resource.is_buffer() && !entry.previous_buffer) {
             entry.previous_buffer = std::move(copies.at(i).previous_buffer);
             entry.previous_buffer.clear();
-            history_lost = true;
         } else if (!resource.is_buffer() && !entry.previous_texture) {
             entry.previous_texture = std::move(copies.at(i).previous_texture);
             entry.previous_texture.clear(resource.declaration.neutral);
-            history_lost = true;
         }
     }
     framebuffers_.clear(); // they name resources by index
     entries_ = std::move(next);
-    return history_lost;
 }
 
 const GpuTexture& Allocations::texture(int resource, bool previous) const {
@@ -131,31 +127,26 @@ void Allocations::clear(int resource, glm::vec4 value) const {
         entry.texture.clear(value);
 }
 
-void Allocations::keep_previous(const Plan& plan) const {
-    for (size_t i = 0; i < plan.resources.size(); ++i) {
-        if (!plan.resources[i].needs_previous) continue;
-        const Entry& entry = *entries_[i];
-        if (entry.is_buffer) {
-            glCopyNamedBufferSubData(entry.buffer.id(), entry.previous_buffer.id(), 0, 0, GLsizeiptr(entry.bytes));
-            continue;
-        }
-        GLenum target = gl_target(entry.desc.kind);
-        for (int mip = 0; mip < entry.desc.mips; ++mip) {
-            glm::ivec3 size = mip_size(entry.desc, mip);
-            glCopyImageSubData(entry.texture.id(), target, mip, 0, 0, 0, entry.previous_texture.id(), target, mip, 0, 0,
-                               0, size.x, size.y, size.z);
-        }
+void Allocations::keep_previous(int resource) const {
+    const Entry& entry = *entries_[size_t(resource)];
+    if (entry.is_buffer) {
+        glCopyNamedBufferSubData(entry.buffer.id(), entry.previous_buffer.id(), 0, 0, GLsizeiptr(entry.bytes));
+        return;
+    }
+    GLenum target = gl_target(entry.desc.kind);
+    for (int mip = 0; mip < entry.desc.mips; ++mip) {
+        glm::ivec3 size = mip_size(entry.desc, mip);
+        glCopyImageSubData(entry.texture.id(), target, mip, 0, 0, 0, entry.previous_texture.id(), target, mip, 0, 0, 0,
+                           size.x, size.y, size.z);
     }
 }
 
-void Allocations::reset(const Plan& plan) const {
-    for (size_t i = 0; i < plan.resources.size(); ++i) {
-        const ResourceDeclaration& declaration = plan.resources[i].declaration;
-        const Entry& entry = *entries_[i];
-        if (declaration.persistent) clear(int(i), declaration.neutral);
-        if (entry.previous_texture) entry.previous_texture.clear(declaration.neutral);
-        if (entry.previous_buffer) entry.previous_buffer.clear();
-    }
+void Allocations::reset(const Plan& plan, int resource) const {
+    const ResourceDeclaration& declaration = plan.resources[size_t(resource)].declaration;
+    const Entry& entry = *entries_[size_t(resource)];
+    if (declaration.persistent || declaration.incremental) clear(resource, declaration.neutral);
+    if (entry.previous_texture) entry.previous_texture.clear(declaration.neutral);
+    if (entry.previous_buffer) entry.previous_buffer.clear();
 }
 
 } // namespace bounce

@@ -12,9 +12,11 @@ namespace bounce {
 
 class Allocations {
   public:
-    /// Makes what `plan` needs and lets go of what it does not. Returns true when anything persistent is new (so that
-    /// history is void). Throws Error when memory does not suffice; the old objects are then still there.
-    bool update(const Plan& plan);
+    /// Makes what `plan` needs, cleared, and lets go of what it does not. Throws Error when memory does not suffice;
+    /// the old objects are then still there.
+    void update(const Plan& plan);
+    /// Differs between any two objects that ever stood for a resource.
+    uint64_t serial(int resource) const { return entries_[size_t(resource)]->serial; }
 
     const GpuTexture& texture(int resource, bool previous = false) const;
     const Buffer& buffer(int resource, bool previous = false) const;
@@ -23,13 +25,15 @@ class Allocations {
     const Framebuffer& framebuffer(const std::vector<std::tuple<int, int, int>>& colours,
                                    std::tuple<int, int, int> depth, glm::ivec2 size);
     void clear(int resource, glm::vec4 value) const;
-    /// This frame's content becomes last frame's.
-    void keep_previous(const Plan& plan) const;
-    void reset(const Plan& plan) const;
+    /// This frame's content of that resource becomes last frame's.
+    void keep_previous(int resource) const;
+    /// What earlier frames left of that resource is cleared: itself if it is kept, and last frame's copy.
+    void reset(const Plan& plan, int resource) const;
 
   private:
     struct Entry {
         std::string name;
+        uint64_t serial = 0;
         TextureDesc desc;
         uint64_t bytes = 0;
         bool is_buffer = false;
@@ -39,6 +43,7 @@ class Allocations {
     };
     std::vector<std::unique_ptr<Entry>> entries_;
     std::map<std::vector<int>, Framebuffer> framebuffers_;
+    uint64_t made_ = 0; ///< entries so far
 };
 
 } // namespace bounce

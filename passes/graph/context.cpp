@@ -12,14 +12,21 @@ namespace bounce {
 const SceneFacts& PassContext::facts() const {
     return *graph_.inputs_->facts;
 }
-const GpuScene& PassContext::scene() const {
-    return *graph_.inputs_->scene;
-}
 const FrameConstants& PassContext::frame() const {
     return graph_.inputs_->constants;
 }
-bool PassContext::history_valid() const {
-    return graph_.history_valid_;
+const GpuScene& PassContext::scene(std::initializer_list<ScenePart> parts) const {
+    inputs_.scene.insert(parts);
+    return *graph_.inputs_->scene;
+}
+const std::vector<GpuDraw>& PassContext::draws() const {
+    return scene({ScenePart::static_draws, ScenePart::dynamic_draws}).draw_list();
+}
+const std::vector<GpuLight>& PassContext::lights() const {
+    return scene({ScenePart::lights}).light_list();
+}
+const std::vector<Material>& PassContext::materials() const {
+    return scene({ScenePart::materials}).material_list();
 }
 
 const PlanSlot& PassContext::slot(const std::string& name) const {
@@ -30,6 +37,11 @@ const PlanSlot& PassContext::slot(const std::string& name) const {
 bool PassContext::has(const std::string& name) const {
     const PlanSlot* found = pass_.find(name);
     return found && found->resource >= 0;
+}
+
+bool PassContext::stands(const std::string& name) const {
+    const PlanSlot& s = slot(name);
+    return s.resource >= 0 && graph_.invalidation_.stands(s.resource);
 }
 
 const GpuTexture& PassContext::texture(const std::string& name) const {
@@ -45,14 +57,8 @@ const Buffer& PassContext::buffer(const std::string& name) const {
 }
 
 std::optional<double> PassContext::number(const std::string& name) const {
-    const GraphModel& model = *graph_.model_;
-    size_t last = name.rfind('.');
-    if (last != std::string::npos) {
-        const PlanResource* resource = graph_.plan_.find_resource(name.substr(0, last));
-        auto side = resource ? side_of(*resource, name.substr(last + 1)) : std::nullopt;
-        if (side) return side;
-    }
-    return model.number(name);
+    inputs_.numbers.insert(name);
+    return number_in_frame(*graph_.model_, graph_.plan_, name);
 }
 
 /// The mip or layer that a bind entry names at this step; −1 when it names none.
@@ -109,6 +115,7 @@ Program& PassContext::use(const std::string& name) {
     if (!program) throw Error("pass '" + pass_.id + "' has no program '" + name + "'");
     glUseProgram(program->id());
     const ProgramInterface& interface = program->interface();
+    const GpuScene& scene = *graph_.inputs_->scene; // what a program uses of it is an input by reflection
 
     for (const UniformInfo& uniform : interface.uniforms) {
         auto constant =
@@ -121,8 +128,8 @@ Program& PassContext::use(const std::string& name) {
             set_uniform(program->id(), uniform, pass_.repeat_from);
         else if (uniform.name == "repeat_to")
             set_uniform(program->id(), uniform, pass_.repeat_to);
-        else if (auto value = frame_constant(frame(), uniform.name))
-            set_uniform(program->id(), uniform, *value);
+        else if (const FrameConstant* known = find_frame_constant(uniform.name))
+            set_frame_constant(program->id(), uniform, *known, frame());
         else if (const Parameter* p = graph_.model_->parameter_of(node, uniform.name))
             set_uniform(program->id(), uniform, p->value);
     }
@@ -130,8 +137,8 @@ Program& PassContext::use(const std::string& name) {
     for (const OpaqueInfo& sampler : interface.samplers) {
         if (sampler.name == "scene_textures") {
             for (int i = 0; i < sampler.count; ++i) {
-                glBindTextureUnit(GLuint(sampler.unit + i), scene().texture_array(i).id());
-                glBindSampler(GLuint(sampler.unit + i), scene().texture_array_sampler(i));
+                glBindTextureUnit(GLuint(sampler.unit + i), scene.texture_array(i).id());
+                glBindSampler(GLuint(sampler.unit + i), scene.texture_array_sampler(i));
             }
             continue;
         }
@@ -140,9 +147,9 @@ Program& PassContext::use(const std::string& name) {
         GLuint texture = 0;
         const PlanSlot* s = pass_.find(slot_name(sampler.name));
         if (sampler.name == "scene_environment")
-            texture = scene().environment().id();
+            texture = scene.environment().id();
         else if (sampler.name == "scene_lobe_albedo")
-            texture = scene().lobe_albedo().id();
+            texture = scene.lobe_albedo().id();
         else if (s && s->resource >= 0) {
             texture = graph_.allocations_
                           .view(s->resource, s->bind.previous, index_at(s->bind.mip, iteration),
@@ -178,24 +185,20 @@ Program& PassContext::use(const std::string& name) {
         GLuint buffer = 0;
         const PlanSlot* s = pass_.find(slot_name(block.name));
         if (block.name == "scene_vertices")
-            buffer = scene().vertices().id();
+            buffer = scene.vertices().id();
         else if (block.name == "scene_indices")
-            buffer = scene().indices().id();
+            buffer = scene.indices().id();
         else if (block.name == "scene_draws")
-            buffer = scene().draws().id();
+            buffer = scene.draws().id();
         else if (block.name == "scene_materials")
-            buffer = scene().materials().id();
+            buffer = scene.materials().id();
         else if (block.name == "scene_lights")
-            buffer = scene().lights().id();
+            buffer = scene.lights().id();
         else if (s && s->resource >= 0)
             buffer = graph_.allocations_.buffer(s->resource, s->bind.previous).id();
         else
-            buffer =
-                graph_.frame_buffer_.id(); // a declined list: something readable must be there; its count is neutral
+            buffer = graph_.empty_buffer_.id(); // a declined list: something readable must be there
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block.binding, buffer);
-    }
-    for (const BlockInfo& block : interface.uniform_blocks) {
-        glBindBufferBase(GL_UNIFORM_BUFFER, block.binding, graph_.frame_buffer_.id());
     }
     return *program;
 }
@@ -239,7 +242,10 @@ void PassContext::bind_targets(const Targets& targets) {
 void PassContext::draw_scene(const std::string& name, const Targets& targets, const DrawOptions& options) {
     bind_targets(targets);
     Program& program = use(name);
-    glBindVertexArray(scene().vertex_array());
+    const GpuScene& drawn = scene({ScenePart::geometry, ScenePart::textures, ScenePart::materials});
+    if (options.which != DrawOptions::Which::dynamic_only) scene({ScenePart::static_draws});
+    if (options.which != DrawOptions::Which::static_only) scene({ScenePart::dynamic_draws});
+    glBindVertexArray(drawn.vertex_array());
     GLint units[4] = {-1, -1, -1, -1};
     static const char* const names[4] = {"material_base_colour", "material_metallic_roughness", "material_normal",
                                          "material_emission"};
@@ -248,8 +254,8 @@ void PassContext::draw_scene(const std::string& name, const Targets& targets, co
             if (sampler.name == names[i]) units[i] = sampler.unit;
         }
     }
-    const auto& draws = scene().draw_list();
-    const auto& materials = scene().material_list();
+    const auto& draws = drawn.draw_list();
+    const auto& materials = drawn.material_list();
     int bound_material = -1;
     bool culling = false, clockwise = options.y_turned;
     glFrontFace(clockwise ? GL_CW : GL_CCW);
@@ -267,8 +273,8 @@ void PassContext::draw_scene(const std::string& name, const Targets& targets, co
         int material = int(draw.material);
         if (material != bound_material) {
             bound_material = material;
-            const GpuScene::Bound bound[4] = {scene().base_colour(material), scene().metallic_roughness(material),
-                                              scene().normal(material), scene().emission(material)};
+            const GpuScene::Bound bound[4] = {drawn.base_colour(material), drawn.metallic_roughness(material),
+                                              drawn.normal(material), drawn.emission(material)};
             for (int t = 0; t < 4; ++t) {
                 if (units[t] < 0) continue;
                 glBindTextureUnit(GLuint(units[t]), bound[t].texture);

@@ -1,11 +1,13 @@
 #pragma once
-// What a pass sees while it executes: its slots, the scene, and commands that bind everything by name.
+// What a pass sees while it executes: its slots, the scene, and commands that bind everything by name. What it asks for
+// is recorded, and is from then on an input of the pass: a change of it makes the pass run again.
 
 #include "graph/frame_constants.h"
 #include "graph/gpu_scene.h"
 #include "graph/model.h"
 
 #include <functional>
+#include <initializer_list>
 
 namespace bounce {
 
@@ -18,7 +20,7 @@ struct DrawOptions {
     bool cull_back_faces = false; ///< of materials that are not double-sided
     bool y_turned = false;        ///< the projection turns y over (the camera's does): front faces are clockwise
     int instances = 1;            ///< gl_InstanceID = 0 … instances − 1 (layers of a layered draw)
-    /// Skips draws; the index is that of GpuScene::draw_list.
+    /// Skips draws; the index is that of PassContext::draws.
     std::function<bool(int draw)> keep;
 };
 
@@ -33,12 +35,25 @@ struct Targets {
 
 class PassContext {
   public:
-    PassContext(Graph& graph, const PlanPass& pass, int step) : iteration(step), graph_(graph), pass_(pass) {}
+    PassContext(Graph& graph, const PlanPass& pass, PassInputs& inputs, int step)
+        : iteration(step), graph_(graph), pass_(pass), inputs_(inputs) {}
 
     const int iteration; ///< the step of a repeated pass
-    const SceneFacts& facts() const;
-    const GpuScene& scene() const;
-    const FrameConstants& frame() const;
+    /// What the scene holds: fact(&SceneFacts::triangles).
+    template <class T>
+    const T& fact(T SceneFacts::*member) const {
+        inputs_.facts.insert({offset_of(member), sizeof(T)});
+        return facts().*member;
+    }
+    /// A constant of the frame: frame(&FrameConstants::time).
+    template <class T>
+    const T& frame(T FrameConstants::*member) const {
+        inputs_.frame.insert({offset_of(member), sizeof(T)});
+        return frame().*member;
+    }
+    const std::vector<GpuDraw>& draws() const;
+    const std::vector<GpuLight>& lights() const;
+    const std::vector<Material>& materials() const;
     const PlanPass& plan() const { return pass_; }
 
     /// The whole texture or buffer behind a slot. Throws Error when the slot has none (a declined producer).
@@ -49,8 +64,8 @@ class PassContext {
     std::optional<double> number(const std::string& name) const;
     /// Size of a texture slot at the mip that it is bound to in this step.
     glm::ivec3 size(const std::string& slot) const;
-    /// Last frame's copy exists and holds something.
-    bool history_valid() const;
+    /// What earlier frames left in a slot's resource (incremental, persistent) stands; false when it was just reset.
+    bool stands(const std::string& slot) const;
 
     /// The value of a constant announced by PassDescription::constant, for the next dispatch or draw.
     void set(const std::string& name, const ParameterValue& value);
@@ -74,12 +89,16 @@ class PassContext {
                               GLintptr offset = 0);
 
   private:
+    const SceneFacts& facts() const;
+    const FrameConstants& frame() const;
+    const GpuScene& scene(std::initializer_list<ScenePart> parts) const;
     const PlanSlot& slot(const std::string& name) const;
     Program& use(const std::string& program);
     void bind_targets(const Targets& targets);
 
     Graph& graph_;
     const PlanPass& pass_;
+    PassInputs& inputs_;
     std::vector<std::pair<std::string, ParameterValue>> constants_;
     std::vector<std::pair<std::string, int>> mips_; ///< by slot: see bind_mip
 };

@@ -14,8 +14,10 @@ struct Declared {
     std::vector<BindEntry> targets; ///< per use: the resource it points at
     int repeat_from = 0, repeat_to = 1;
     std::string loop;
-    std::string declined; ///< reason, or empty
-    bool faulty = false;  ///< an error of it has been told
+    std::set<ByteRange> facts_read; ///< by its declaration
+    bool picture_size_read = false; ///< likewise
+    std::string declined;           ///< reason, or empty
+    bool faulty = false;            ///< an error of it has been told
 };
 
 /// Slots of the scene's own resources, which no pass makes.

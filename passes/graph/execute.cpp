@@ -10,8 +10,6 @@
 
 namespace bounce {
 
-static constexpr size_t k_timing_history = 120;
-
 /// The state that every pass starts from.
 static void default_state() {
     glDisable(GL_BLEND);
@@ -32,8 +30,12 @@ static void default_state() {
 void Graph::execute(const FrameInputs& inputs) {
     if (!planned_) throw Error("the graph has no plan yet");
     inputs_ = &inputs;
-    non_finite_.clear();
-    frame_buffer_.update(0, sizeof(FrameConstants), &inputs.constants);
+    bool all = model_->rebuild() == Rebuild::every_frame || (check_nan && !checked_nan_);
+    checked_nan_ = check_nan;
+    if (!check_nan) non_finite_.clear();
+    invalidation_.begin_frame(*model_, plan_, allocations_, inputs, all);
+    for (int resource : invalidation_.voids())
+        allocations_.reset(plan_, resource);
     for (size_t i = 0; i < plan_.passes.size();) {
         size_t last = i;
         const std::string& loop = plan_.passes[i].loop;
@@ -47,8 +49,8 @@ void Graph::execute(const FrameInputs& inputs) {
     });
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT |
                     GL_BUFFER_UPDATE_BARRIER_BIT); // the copies wait for shaders' stores
-    allocations_.keep_previous(plan_);
-    history_valid_ = true;
+    for (int resource : invalidation_.end_frame(plan_))
+        allocations_.keep_previous(resource);
     if (counters_.collect(plan_, allocations_)) ask_whether_outgrown();
     glMemoryBarrier(GL_ALL_BARRIER_BITS); // whoever looks at the results (panels, readback) sees them
     default_state();
@@ -62,42 +64,42 @@ void Graph::execute(const FrameInputs& inputs) {
 void Graph::run_loop(size_t first, size_t last) {
     const PlanPass& head = plan_.passes[first];
     if (head.loop.empty()) {
-        run_pass(head, head.repeat_from, head.repeat_to);
+        run_pass(first, head.repeat_from, head.repeat_to);
         return;
     }
     for (int step = head.repeat_from; step < head.repeat_to; ++step) {
         // What one of them reads, or overwrites, any other may have touched in the step before.
         if (step > head.repeat_from) glMemoryBarrier(GL_ALL_BARRIER_BITS);
         for (size_t i = first; i <= last; ++i)
-            run_pass(plan_.passes[i], step, step + 1);
+            run_pass(i, step, step + 1);
     }
 }
 
-void Graph::run_pass(const PlanPass& pass, int from, int to) {
+void Graph::run_pass(size_t index, int from, int to) {
+    const PlanPass& pass = plan_.passes[index];
+    bool first = from == pass.repeat_from, last = to >= pass.repeat_to;
+    if (!invalidation_.runs(index)) {
+        if (first) timings_.skip(pass.id);
+        return;
+    }
     PassNode& node = *model_->nodes()[size_t(pass.node)];
     DebugGroup group(pass.id);
-    Times& times = times_[pass.id];
-    size_t count = pass.loop.empty() ? 1 : size_t(std::max(pass.repeat_to - pass.repeat_from, 1));
-    if (times.parts.size() != count) {
-        times.parts.clear();
-        times.parts.resize(count);
-    }
-    auto& timer = times.parts[pass.loop.empty() ? 0 : size_t(from - pass.repeat_from)].timer;
-    if (!timer) timer = std::make_unique<GpuTimer>(timer_mode_);
-    timer->begin();
+    size_t step = pass.loop.empty() ? 0 : size_t(from - pass.repeat_from);
+    timings_.begin(pass.id, step, pass.loop.empty() ? 1 : size_t(std::max(pass.repeat_to - pass.repeat_from, 1)));
     bool usable = std::all_of(node.programs.begin(), node.programs.end(),
                               [&](auto& p) { return p->usable() || !pass.runs(p->name()); });
-    if (from == pass.repeat_from) {
+    if (first) {
         for (int resource : pass.clears)
             allocations_.clear(resource, plan_.resources[size_t(resource)].declaration.neutral);
     }
     if (pass.barriers) glMemoryBarrier(pass.barriers);
+    bool whole = usable;
     if (usable) {
         try {
-            for (int step = from; step < to; ++step) {
-                if (step > from && pass.step_barriers) glMemoryBarrier(pass.step_barriers);
+            for (int i = from; i < to; ++i) {
+                if (i > from && pass.step_barriers) glMemoryBarrier(pass.step_barriers);
                 default_state();
-                PassContext context(*this, pass, step);
+                PassContext context(*this, pass, invalidation_.inputs(pass.id), i);
                 node.pass->execute(context);
             }
             broke_.erase(pass.id);
@@ -105,35 +107,15 @@ void Graph::run_pass(const PlanPass& pass, int from, int to) {
             std::string text = problem_text(problem);
             if (broke_[pass.id] != text) spdlog::error("pass '{}': {}", pass.id, text);
             broke_[pass.id] = text;
+            whole = false;
             fill_failed(pass);
         }
     } else {
         fill_failed(pass);
     }
-    timer->end();
-    take_timings(times);
+    timings_.end(pass.id, step);
+    if (last) invalidation_.ran(index, *model_, plan_, allocations_, *inputs_, whole);
     if (check_nan) look_for_nan(pass);
-}
-
-void Graph::take_timings(Times& times) {
-    for (Times::Part& part : times.parts) {
-        if (!part.timer) continue;
-        while (auto ms = part.timer->take())
-            part.ready.push_back(*ms);
-    }
-    auto has_all = [&] {
-        return !times.parts.empty() &&
-               std::all_of(times.parts.begin(), times.parts.end(), [](auto& part) { return !part.ready.empty(); });
-    };
-    while (has_all()) {
-        double sum = 0;
-        for (Times::Part& part : times.parts) {
-            sum += part.ready.front();
-            part.ready.pop_front();
-        }
-        times.history.push_back(sum);
-        if (times.history.size() > k_timing_history) times.history.pop_front();
-    }
 }
 
 void Graph::ask_whether_outgrown() {
@@ -145,8 +127,6 @@ void Graph::ask_whether_outgrown() {
         dirty_ = true;
         outgrown_ = true;
     }
-    // What such a frame left for those after it (means over frames) was made with something missing.
-    if (outgrown_) reset_history();
 }
 
 bool Graph::outgrown() {
@@ -156,15 +136,13 @@ bool Graph::outgrown() {
 
 void Graph::forget_timings() {
     finish_timings();
-    for (auto& [id, times] : times_)
-        times.history.clear();
+    timings_.forget();
 }
 
 void Graph::finish_timings() {
     glFinish();
     counters_.finish();
-    for (auto& [id, times] : times_)
-        take_timings(times);
+    timings_.take();
 }
 
 /// A pass whose program never compiled: its float colour outputs turn magenta, the others neutral.
@@ -187,6 +165,7 @@ void Graph::look_for_nan(const PlanPass& pass) {
         if (slot.resource < 0 || !slot.use.writes || plan_.resources[size_t(slot.resource)].is_buffer()) continue;
         const PlanResource& resource = plan_.resources[size_t(slot.resource)];
         uint64_t count = nan_check_->count(allocations_.texture(slot.resource));
+        non_finite_.erase(resource.name());
         if (!count) continue;
         non_finite_[resource.name()] = count;
         spdlog::warn("pass '{}' wrote {} values to '{}' that are not finite", pass.id, count, resource.name());

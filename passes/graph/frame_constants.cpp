@@ -4,7 +4,6 @@
 #include "scene/near_plane.h"
 
 #include <cmath>
-#include <map>
 
 namespace bounce {
 
@@ -33,45 +32,106 @@ void set_camera(FrameConstants& c, const Camera& camera, glm::ivec2 resolution, 
     c.inverse_view_projection = glm::mat4(glm::inverse(glm::dmat4(c.view_projection)));
 }
 
-using Getter = ParameterValue (*)(const FrameConstants&);
-static const std::map<std::string, Getter>& getters() {
-    static const std::map<std::string, Getter> table = {
-        {"camera_position", [](const FrameConstants& c) -> ParameterValue { return c.camera_position; }},
-        {"camera_right", [](const FrameConstants& c) -> ParameterValue { return c.camera_right; }},
-        {"camera_up", [](const FrameConstants& c) -> ParameterValue { return c.camera_up; }},
-        {"camera_forward", [](const FrameConstants& c) -> ParameterValue { return c.camera_forward; }},
-        {"time", [](const FrameConstants& c) -> ParameterValue { return c.time; }},
-        {"delta_time", [](const FrameConstants& c) -> ParameterValue { return c.delta_time; }},
-        {"tan_half_vfov", [](const FrameConstants& c) -> ParameterValue { return c.tan_half_vfov; }},
-        {"near_plane", [](const FrameConstants& c) -> ParameterValue { return c.near_plane; }},
-        {"aspect", [](const FrameConstants& c) -> ParameterValue { return c.aspect; }},
-        {"scene_min", [](const FrameConstants& c) -> ParameterValue { return c.scene_min; }},
-        {"scene_max", [](const FrameConstants& c) -> ParameterValue { return c.scene_max; }},
-        {"scene_diagonal", [](const FrameConstants& c) -> ParameterValue { return c.scene_diagonal; }},
-        {"environment_radiance", [](const FrameConstants& c) -> ParameterValue { return c.environment_radiance; }},
-        {"environment_map", [](const FrameConstants& c) -> ParameterValue { return c.environment_map; }},
-        {"resolution", [](const FrameConstants& c) -> ParameterValue { return glm::vec2(c.resolution); }},
-        {"frame_index", [](const FrameConstants& c) -> ParameterValue { return c.frame_index; }},
-        {"light_count", [](const FrameConstants& c) -> ParameterValue { return c.light_count; }},
-        {"diffuse_only", [](const FrameConstants& c) -> ParameterValue { return c.diffuse_only; }},
-        {"material_model", [](const FrameConstants& c) -> ParameterValue { return c.material_model; }},
-        {"normal_maps", [](const FrameConstants& c) -> ParameterValue { return c.normal_maps; }},
-        {"shadow_view_count", [](const FrameConstants& c) -> ParameterValue { return c.shadow_view_count; }},
+template <class T>
+static constexpr FrameConstantType type_of() {
+    if constexpr (std::is_same_v<T, float>)
+        return FrameConstantType::real;
+    else if constexpr (std::is_same_v<T, int>)
+        return FrameConstantType::integer;
+    else if constexpr (std::is_same_v<T, glm::ivec2>)
+        return FrameConstantType::ivec2;
+    else if constexpr (std::is_same_v<T, glm::vec3>)
+        return FrameConstantType::vec3;
+    else
+        return FrameConstantType::mat4;
+}
+
+template <class T>
+static FrameConstant constant(const char* name, T FrameConstants::*member, Cause cause = Cause::lasting) {
+    return {name, type_of<T>(), offset_of(member), sizeof(T), cause};
+}
+
+const std::vector<FrameConstant>& frame_constants() {
+    using C = FrameConstants;
+    static const std::vector<FrameConstant> table = {
+        constant("view", &C::view, Cause::camera),
+        constant("projection", &C::projection, Cause::camera),
+        constant("view_projection", &C::view_projection, Cause::camera),
+        constant("inverse_view_projection", &C::inverse_view_projection, Cause::camera),
+        constant("previous_view_projection", &C::previous_view_projection, Cause::passing),
+        constant("camera_position", &C::camera_position, Cause::camera),
+        constant("camera_right", &C::camera_right, Cause::camera),
+        constant("camera_up", &C::camera_up, Cause::camera),
+        constant("camera_forward", &C::camera_forward, Cause::camera),
+        constant("tan_half_vfov", &C::tan_half_vfov, Cause::camera),
+        constant("near_plane", &C::near_plane, Cause::camera),
+        constant("aspect", &C::aspect),
+        constant("resolution", &C::resolution),
+        constant("time", &C::time, Cause::passing),
+        constant("delta_time", &C::delta_time),
+        constant("frame_index", &C::frame_index, Cause::passing),
+        constant("scene_min", &C::scene_min),
+        constant("scene_max", &C::scene_max),
+        constant("scene_diagonal", &C::scene_diagonal),
+        constant("environment_radiance", &C::environment_radiance),
+        constant("environment_map", &C::environment_map),
+        constant("light_count", &C::light_count),
+        constant("diffuse_only", &C::diffuse_only),
+        constant("normal_maps", &C::normal_maps),
+        constant("material_model", &C::material_model),
+        constant("shadow_view_count", &C::shadow_view_count),
     };
     return table;
 }
 
-std::optional<ParameterValue> frame_constant(const FrameConstants& constants, const std::string& name) {
-    auto found = getters().find(name);
-    if (found == getters().end()) return std::nullopt;
-    return found->second(constants);
+const FrameConstant* find_frame_constant(const std::string& name) {
+    for (const FrameConstant& known : frame_constants())
+        if (known.name == name) return &known;
+    return nullptr;
 }
 
-std::vector<std::string> frame_constant_names() {
-    std::vector<std::string> names;
-    for (const auto& [name, getter] : getters())
-        names.push_back(name);
-    return names;
+bool frame_constant_fits(const FrameConstant& constant, GLenum type) {
+    switch (constant.type) {
+    case FrameConstantType::real:
+        return type == GL_FLOAT;
+    case FrameConstantType::integer:
+        return type == GL_INT || type == GL_UNSIGNED_INT || type == GL_BOOL || type == GL_FLOAT;
+    case FrameConstantType::ivec2:
+        return type == GL_INT_VEC2 || type == GL_FLOAT_VEC2;
+    case FrameConstantType::vec3:
+        return type == GL_FLOAT_VEC3;
+    case FrameConstantType::mat4:
+        return type == GL_FLOAT_MAT4;
+    }
+    return false;
+}
+
+void set_frame_constant(GLuint program, const UniformInfo& uniform, const FrameConstant& constant,
+                        const FrameConstants& values) {
+    if (!frame_constant_fits(constant, uniform.type)) return;
+    const char* from = reinterpret_cast<const char*>(&values) + constant.offset;
+    const auto* reals = reinterpret_cast<const float*>(from);
+    const auto* integers = reinterpret_cast<const int*>(from);
+    switch (constant.type) {
+    case FrameConstantType::real:
+        glProgramUniform1f(program, uniform.location, *reals);
+        break;
+    case FrameConstantType::integer:
+        set_uniform(program, uniform, *integers);
+        break;
+    case FrameConstantType::ivec2:
+        if (uniform.type == GL_INT_VEC2)
+            glProgramUniform2iv(program, uniform.location, 1, integers);
+        else
+            glProgramUniform2f(program, uniform.location, float(integers[0]), float(integers[1]));
+        break;
+    case FrameConstantType::vec3:
+        glProgramUniform3fv(program, uniform.location, 1, reals);
+        break;
+    case FrameConstantType::mat4:
+        glProgramUniformMatrix4fv(program, uniform.location, 1, GL_FALSE, reals);
+        break;
+    }
 }
 
 } // namespace bounce

@@ -1,16 +1,17 @@
 #pragma once
-// The frame's constants, as the uniform block `Frame` of glsl/lib/frame.glsl (std140) and as plain uniforms by name.
+// The frame's constants: plain uniforms by name, all declared in glsl/lib/frame.glsl. They are no uniform block,
+// because a compiled program tells which plain uniforms it really uses, and so what a pass depends on.
 
-#include "core/parameters.h"
+#include "gpu/program.h"
+#include "graph/revision.h"
 #include "scene/scene.h"
 
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace bounce {
 
-/// Members in std140 order; names are those of glsl/lib/frame.glsl.
+/// Names are those of glsl/lib/frame.glsl.
 struct FrameConstants {
     glm::mat4 view{1};       ///< world → camera
     glm::mat4 projection{1}; ///< reversed depth: 1 at the near plane, 0 at infinity; row 0 at the top
@@ -39,14 +40,24 @@ struct FrameConstants {
     int normal_maps = 1;
     int material_model = 0; ///< MaterialModel; glsl/lib/material_model.glsl
 };
-static_assert(sizeof(FrameConstants) == 5 * 64 + 7 * 16 + 2 * 16);
 
 /// One camera's part: matrices, basis, near plane. The plane is the camera's own, or else nearer than anything that
 /// floats tell apart: depth = near ÷ distance is a float, as precise with the smallest plane as with a large one.
 void set_camera(FrameConstants& constants, const Camera& camera, glm::ivec2 resolution, float scene_diagonal);
 
-/// A constant by its name, as a plain uniform may ask for it (matrices come through the block only).
-std::optional<ParameterValue> frame_constant(const FrameConstants& constants, const std::string& name);
-std::vector<std::string> frame_constant_names();
+enum class FrameConstantType { real, integer, ivec2, vec3, mat4 };
+struct FrameConstant {
+    const char* name;
+    FrameConstantType type;
+    size_t offset, size; ///< bytes in FrameConstants
+    Cause cause;         ///< of a change of its value
+};
+const std::vector<FrameConstant>& frame_constants();
+/// Null when there is none of that name.
+const FrameConstant* find_frame_constant(const std::string& name);
+/// Whether a uniform of that OpenGL type can hold it (an ivec2 also goes into a vec2, an int into any scalar).
+bool frame_constant_fits(const FrameConstant& constant, GLenum uniform_type);
+void set_frame_constant(GLuint program, const UniformInfo& uniform, const FrameConstant& constant,
+                        const FrameConstants& values);
 
 } // namespace bounce

@@ -1,5 +1,6 @@
 #include "graph/gpu_scene.h"
 
+#include "core/digest.h"
 #include "core/error.h"
 #include "scene/lobe_albedo.h"
 #include "scene/normal_transform.h"
@@ -55,6 +56,11 @@ GpuScene::GpuScene(const Scene& scene, const Environment& environment)
                         lobe_albedo_table().entries.data());
     upload_textures(scene);
     update_materials(scene.materials);
+    // What is uploaded once is told from all others ever uploaded.
+    static uint64_t uploads = 0;
+    ++uploads;
+    for (ScenePart part : {ScenePart::geometry, ScenePart::textures, ScenePart::environment})
+        revisions_[size_t(part)][Cause::lasting] = uploads;
 }
 
 const GpuTexture& GpuScene::texture_array(int i) const {
@@ -103,17 +109,21 @@ void GpuScene::update_materials(const std::vector<Material>& materials) {
         slots_.push_back({bound(m.base_colour_texture, white_), bound(m.metallic_roughness_texture, white_),
                           bound(m.normal_texture, flat_normal_), bound(m.emission_texture, white_)});
     }
+    Digest digest;
+    for (const Material& m : materials)
+        digest.add(m.alpha_mode); // the rest of it is packed
     uint64_t bytes = packed.size() * sizeof(GpuMaterial);
+    revisions_[size_t(ScenePart::materials)][Cause::lasting] = digest.bytes(packed.data(), bytes).value();
     if (materials_.bytes() != bytes || !materials_)
         materials_ = Buffer(bytes, packed.data(), "scene.materials");
     else
         materials_.update(0, bytes, packed.data());
 }
 
-void GpuScene::update(const SceneState& state) {
-    draw_list_.clear();
+static std::vector<GpuDraw> pack_draws(const SceneState& state) {
+    std::vector<GpuDraw> draws;
     for (const Instance& instance : state.instances) {
-        GpuDraw draw;
+        GpuDraw& draw = draws.emplace_back();
         draw.world = instance.world;
         draw.previous_world = instance.previous_world;
         NormalTransform turn(instance.world);
@@ -122,12 +132,15 @@ void GpuScene::update(const SceneState& state) {
         draw.first_index = instance.primitive.first_index;
         draw.index_count = instance.primitive.index_count;
         draw.flags = (instance.dynamic ? GpuDraw::k_dynamic : 0u) | (turn.mirrored ? GpuDraw::k_mirrored : 0u);
-        draw_list_.push_back(draw);
     }
-    light_list_.clear();
-    shadow_view_count_ = 0;
+    return draws;
+}
+
+static std::vector<GpuLight> pack_lights(const SceneState& state) {
+    std::vector<GpuLight> lights;
+    int shadow_base = 0;
     for (const Light& light : state.lights) {
-        GpuLight out;
+        GpuLight& out = lights.emplace_back();
         out.position = light.position;
         out.type = uint32_t(light.type);
         out.direction = light.direction;
@@ -136,11 +149,31 @@ void GpuScene::update(const SceneState& state) {
         out.outer_cone_cos = std::cos(light.outer_cone);
         out.radius = light.radius;
         out.angular_radius = light.angular_radius;
-        out.shadow_base = shadow_view_count_;
+        out.shadow_base = shadow_base;
         out.shadow_count = shadow_views_of(light.type);
-        shadow_view_count_ += out.shadow_count;
-        light_list_.push_back(out);
+        shadow_base += out.shadow_count;
     }
+    return lights;
+}
+
+/// Of the draws that stand, or of those that move by themselves; each with its place in the list.
+static uint64_t digest_of_draws(const std::vector<GpuDraw>& draws, bool dynamic) {
+    Digest digest;
+    for (size_t i = 0; i < draws.size(); ++i)
+        if (((draws[i].flags & GpuDraw::k_dynamic) != 0) == dynamic) digest.add(i).add(draws[i]);
+    return digest.value();
+}
+
+static uint64_t digest_of_lights(const std::vector<GpuLight>& lights) {
+    return Digest().bytes(lights.data(), lights.size() * sizeof(GpuLight)).value();
+}
+
+void GpuScene::update(const SceneState& state, bool moving_lights) {
+    draw_list_ = pack_draws(state);
+    light_list_ = pack_lights(state);
+    shadow_view_count_ = 0;
+    for (const GpuLight& light : light_list_)
+        shadow_view_count_ += light.shadow_count;
     auto upload = [](Buffer& buffer, const auto& list, const char* name) {
         uint64_t bytes = list.size() * sizeof(list[0]);
         if (!buffer || buffer.bytes() != bytes)
@@ -150,6 +183,19 @@ void GpuScene::update(const SceneState& state) {
     };
     upload(draws_, draw_list_, "scene.draws");
     upload(lights_, light_list_, "scene.lights");
+    revisions_[size_t(ScenePart::static_draws)][Cause::lasting] = digest_of_draws(draw_list_, false);
+    Revision& dynamic = revisions_[size_t(ScenePart::dynamic_draws)];
+    dynamic[Cause::lasting] = draw_edits_;
+    dynamic[Cause::passing] = digest_of_draws(draw_list_, true);
+    Revision& lights = revisions_[size_t(ScenePart::lights)];
+    uint64_t digest = digest_of_lights(light_list_);
+    lights[Cause::lasting] = moving_lights ? light_edits_ : digest;
+    lights[Cause::passing] = moving_lights ? digest : 0;
+}
+
+void GpuScene::scene_edited(const SceneState& state) {
+    draw_edits_ += digest_of_draws(pack_draws(state), true) != digest_of_draws(draw_list_, true);
+    light_edits_ += digest_of_lights(pack_lights(state)) != digest_of_lights(light_list_);
 }
 
 uint64_t GpuScene::geometry_bytes() const {

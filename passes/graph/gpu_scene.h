@@ -4,6 +4,7 @@
 // is stored twice.
 
 #include "gpu/objects.h"
+#include "graph/revision.h"
 #include "scene/scene.h"
 
 #include <array>
@@ -50,6 +51,10 @@ static_assert(sizeof(GpuLight) == 64);
 /// Layers of the shadow array that a light needs: 6 for a point light, else 1.
 int shadow_views_of(LightType type);
 
+/// What a pass may use of the scene, each with a revision of its own.
+enum class ScenePart { geometry, textures, environment, materials, static_draws, dynamic_draws, lights };
+inline constexpr int k_scene_parts = 7;
+
 class GpuScene {
   public:
     static constexpr int k_texture_arrays = 8; ///< samplers scene_textures[8]
@@ -57,8 +62,12 @@ class GpuScene {
     /// Uploads everything. Throws Error when memory or limits do not suffice.
     GpuScene(const Scene& scene, const Environment& environment);
 
-    /// Draws and lights of this frame. Lights get their shadow layers in order.
-    void update(const SceneState& state);
+    /// Draws and lights of this frame. Lights get their shadow layers in order. `moving_lights`: some move by
+    /// themselves, so that a change of lights is no edit unless scene_edited() tells of it.
+    void update(const SceneState& state, bool moving_lights = false);
+    /// After an edit: what the last update() would have been given with the scene as it is now. Differences of what
+    /// moves by itself count as edits.
+    void scene_edited(const SceneState& state);
     /// Materials as edited in a panel.
     void update_materials(const std::vector<Material>& materials);
 
@@ -90,6 +99,8 @@ class GpuScene {
     Bound normal(int material) const { return slots_[size_t(material)][2]; }
     Bound emission(int material) const { return slots_[size_t(material)][3]; }
 
+    const Revision& revision(ScenePart part) const { return revisions_[size_t(part)]; }
+
     uint64_t geometry_bytes() const;
     uint64_t texture_bytes() const;
 
@@ -115,6 +126,8 @@ class GpuScene {
     std::vector<GpuLight> light_list_;
     std::vector<Material> material_list_;
     int shadow_view_count_ = 0;
+    std::array<Revision, k_scene_parts> revisions_;
+    uint64_t draw_edits_ = 0, light_edits_ = 0; ///< of what moves by itself
 };
 
 } // namespace bounce

@@ -7,14 +7,15 @@
 #include "gpu/capabilities.h"
 
 #include <algorithm>
+#include <cstring>
 #include <fmt/format.h>
 #include <utility>
 
 namespace bounce {
 
 Graph::Graph(const std::filesystem::path& file, TimerMode timer_mode)
-    : model_(std::make_unique<GraphModel>(read_graph_file(file))), timer_mode_(timer_mode),
-      frame_buffer_(sizeof(FrameConstants), nullptr, "Frame"),
+    : model_(std::make_unique<GraphModel>(read_graph_file(file))), timings_(timer_mode),
+      empty_buffer_(1024, nullptr, "nothing"),
       comparison_sampler_(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, "depth comparison"),
       empty_vertex_array_("no attributes") {
 #ifdef BOUNCE_DEBUG
@@ -22,6 +23,7 @@ Graph::Graph(const std::filesystem::path& file, TimerMode timer_mode)
 #endif
     glSamplerParameteri(comparison_sampler_.id(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     glSamplerParameteri(comparison_sampler_.id(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    empty_buffer_.clear();
     watch();
 }
 
@@ -42,9 +44,38 @@ static bool same_needs(const SceneFacts& a, const SceneFacts& b) {
     return key(a) == key(b);
 }
 
+/// What passes asked for when they declared what they make.
+static bool same_facts_read(const Plan& plan, const SceneFacts& a, const SceneFacts& b) {
+    for (const PlanPass& pass : plan.passes) {
+        for (auto [offset, size] : pass.facts_read) {
+            const auto* of_a = reinterpret_cast<const char*>(&a) + offset;
+            if (std::memcmp(of_a, reinterpret_cast<const char*>(&b) + offset, size) != 0) return false;
+        }
+    }
+    return true;
+}
+
+static std::vector<bool> switches_of(const GraphModel& model) {
+    std::vector<bool> switches;
+    for (const auto& node : model.nodes())
+        switches.push_back(node->enabled);
+    return switches;
+}
+
+bool Graph::needs_plan(const SceneFacts& facts, glm::ivec2 size) {
+    bool needed = std::exchange(dirty_, false);
+    for (const std::string& name : model_->take_changes()) {
+        const Parameter* set = model_->find_parameter(name);
+        // In C++ a parameter may shape what a pass declares; a static one, which slots its shader has.
+        bool plain = set && set->info.in_shader && !set->info.is_static && !plan_.numbers.contains(name);
+        needed = needed || !plain || !plan_problem_.empty();
+    }
+    return needed || !planned_ || plan_.size != size || !same_needs(facts, planned_facts_) ||
+           !same_facts_read(plan_, facts, planned_facts_) || switches_of(*model_) != planned_switches_;
+}
+
 void Graph::prepare(const SceneFacts& facts, glm::ivec2 size) {
-    if (!dirty_ && planned_ && plan_.size == size && same_needs(facts, planned_facts_)) return;
-    dirty_ = false;
+    if (!needs_plan(facts, size)) return;
     // What was counted with too little room is void: it would make the pass grow once more.
     if (std::exchange(outgrown_, false)) counters_.drop();
     try {
@@ -56,19 +87,25 @@ void Graph::prepare(const SceneFacts& facts, glm::ivec2 size) {
         if (plan_problem_ != text) spdlog::error("{}", text);
         plan_problem_ = text;
     }
+    planned_switches_ = switches_of(*model_);
     build_programs();
+    invalidation_.new_plan(*model_, plan_);
     watch();
 }
 
+void Graph::set_default_rebuild(Rebuild rebuild) {
+    default_rebuild_ = rebuild;
+    model_->set_default_rebuild(rebuild);
+}
+
 void Graph::plan_again(const SceneFacts& facts, glm::ivec2 size) {
+    ++plans_;
     Plan next = model_->plan(facts, size);
-    bool resized = planned_ && plan_.size != size;
-    bool lost = allocations_.update(next);
+    allocations_.update(next);
     neutrals_.clear(); // they are as large as what they stand for
     plan_ = std::move(next);
     planned_facts_ = facts;
     planned_ = true;
-    if (resized || lost) reset_history();
 }
 
 /// Formats of the images that a pass stores to, for layout(FORMAT_slot), and HAS_slot for optional slots that something
@@ -88,16 +125,18 @@ Defines Graph::formats_of(const PlanPass& pass) const {
 std::vector<std::string> Graph::check_interface(const PassNode& node, const PlanPass& pass,
                                                 const ProgramInterface& interface) const {
     std::vector<std::string> problems;
-    std::vector<std::string> constants = frame_constant_names();
+    std::vector<std::string> constants;
+    for (const FrameConstant& known : frame_constants())
+        constants.push_back(known.name);
     constants.insert(constants.end(), {"iteration", "repeat_from", "repeat_to"});
     constants.insert(constants.end(), node.description->constants.begin(), node.description->constants.end());
     for (const UniformInfo& uniform : interface.uniforms) {
         bool known = std::find(constants.begin(), constants.end(), uniform.name) != constants.end();
         const Parameter* parameter = model_->parameter_of(node, uniform.name);
-        auto constant = frame_constant(FrameConstants{}, uniform.name);
-        if (constant && !uniform_takes(uniform.type, *constant)) {
-            problems.push_back(fmt::format("uniform '{}' is a constant of the frame, of another type (lib/frame.glsl "
-                                           "has it in the block Frame)",
+        const FrameConstant* constant = find_frame_constant(uniform.name);
+        if (constant && !frame_constant_fits(*constant, uniform.type)) {
+            problems.push_back(fmt::format("uniform '{}' is a constant of the frame, of another type (see "
+                                           "lib/frame.glsl)",
                                            uniform.name));
         }
         if (!known && parameter && !uniform_takes(uniform.type, parameter->value)) {
@@ -125,8 +164,8 @@ std::vector<std::string> Graph::check_interface(const PassNode& node, const Plan
     for (const BlockInfo& block : interface.storage_blocks)
         check_slot(block.name);
     for (const BlockInfo& block : interface.uniform_blocks) {
-        if (block.name != "Frame")
-            problems.push_back("uniform block '" + block.name + "' has no source; there is: Frame");
+        problems.push_back("uniform block '" + block.name +
+                           "' has no source: constants of the frame are plain uniforms (see lib/frame.glsl)");
     }
     return problems;
 }
@@ -164,14 +203,6 @@ void Graph::build_programs() {
     }
 }
 
-void Graph::reset_history() {
-    if (!planned_) return;
-    allocations_.reset(plan_);
-    history_valid_ = false;
-    for (const auto& node : model_->nodes())
-        node->pass->reset_history();
-}
-
 // --- reloading -------------------------------------------------------------------------------------------------------
 
 bool Graph::poll_files() {
@@ -181,12 +212,14 @@ bool Graph::poll_files() {
     if (std::find(changed.begin(), changed.end(), model_->file().path) != changed.end()) {
         try {
             auto next = std::make_unique<GraphModel>(read_graph_file(model_->file().path));
-            next->adopt_values(*model_);
+            next->set_default_rebuild(default_rebuild_);
+            next->adopt_values(model_->values());
             next->adopt_programs(*model_);
             try {
                 Plan plan = next->plan(planned_facts_, plan_.size);
                 allocations_.update(plan);
                 plan_ = std::move(plan);
+                invalidation_.new_plan(*next, plan_);
             } catch (...) {
                 model_->adopt_programs(*next); // the old graph goes on as it was
                 throw;
@@ -195,18 +228,21 @@ bool Graph::poll_files() {
             file_problem_.clear();
             plan_problem_.clear();
             spdlog::info("graph '{}' reloaded", model_->file().name);
-            reset_history();
         } catch (const std::exception& problem) {
             file_problem_ = problem_text(problem);
             spdlog::error("{}", file_problem_);
         }
     }
     for (const auto& node : model_->nodes()) {
-        bool touched = std::any_of(node->programs.begin(), node->programs.end(), [&](auto& program) {
+        bool touched = false;
+        for (const auto& program : node->programs) {
             const auto& files = program->files();
-            return std::any_of(changed.begin(), changed.end(),
-                               [&](auto& file) { return std::find(files.begin(), files.end(), file) != files.end(); });
-        });
+            bool reads_one = std::any_of(changed.begin(), changed.end(), [&](auto& file) {
+                return std::find(files.begin(), files.end(), file) != files.end();
+            });
+            if (reads_one) program->files_changed();
+            touched = touched || reads_one;
+        }
         if (touched) model_->scan(*node);
     }
     return true;
@@ -227,6 +263,7 @@ void Graph::disable_programs(const std::vector<std::filesystem::path>& files) {
             built_[node->id() + "/" + program->name()] = {text, {}};
         }
     }
+    if (planned_) invalidation_.new_plan(*model_, plan_);
 }
 
 std::vector<GraphProblem> Graph::problems() const {
@@ -262,25 +299,12 @@ bool Graph::pass_is_stale(const std::string& id) const {
 
 // --- looking ---------------------------------------------------------------------------------------------------------
 
-PassTiming Graph::timing(const std::string& id) const {
-    auto found = times_.find(id);
-    PassTiming timing;
-    if (found == times_.end() || found->second.history.empty()) return timing;
-    std::vector<double> sorted(found->second.history.begin(), found->second.history.end());
-    timing.last = sorted.back();
-    std::sort(sorted.begin(), sorted.end());
-    auto at = [&](double share) { return sorted[size_t(share * double(sorted.size() - 1) + 0.5)]; };
-    timing.median = at(0.5);
-    timing.low = at(0.1);
-    timing.high = at(0.9);
-    timing.samples = int(sorted.size());
-    return timing;
-}
-
 double Graph::frame_ms() const {
     double sum = 0;
-    for (const PlanPass& pass : plan_.passes)
-        sum += timing(pass.id).median;
+    for (const PlanPass& pass : plan_.passes) {
+        PassTiming timing = this->timing(pass.id);
+        sum += model_->rebuild() == Rebuild::every_frame ? timing.median : timing.per_frame;
+    }
     return sum;
 }
 

@@ -6,19 +6,13 @@
 #include "graph/allocations.h"
 #include "graph/context.h"
 #include "graph/counters.h"
+#include "graph/invalidation.h"
 #include "graph/nan_check.h"
+#include "graph/timings.h"
 
-#include <deque>
 #include <memory>
 
 namespace bounce {
-
-/// GPU time of a pass over the last frames, milliseconds.
-struct PassTiming {
-    double last = 0, median = 0;
-    double low = 0, high = 0; ///< 10th and 90th percentile
-    int samples = 0;
-};
 
 struct FrameInputs {
     const GpuScene* scene = nullptr;
@@ -43,8 +37,9 @@ class Graph {
     const Plan& plan() const { return plan_; }
     bool planned() const { return planned_; }
 
-    /// Re-plans, allocates and compiles as far as anything changed. Throws Error the first time only; later a failure
-    /// keeps the last good plan and shows in problems().
+    /// Plans, allocates and compiles as far as anything changed: a parameter that only feeds a uniform changes none of
+    /// it, a static one its program, one that shapes resources the plan. Throws Error the first time only; later a
+    /// failure keeps the last good plan and shows in problems().
     void prepare(const SceneFacts& facts, glm::ivec2 size);
     /// One frame. prepare() must have run.
     void execute(const FrameInputs& inputs);
@@ -56,10 +51,14 @@ class Graph {
     /// Looks at the watched files; reloads what changed, keeping the last good graph. Returns true when something
     /// changed.
     bool poll_files();
-    /// A parameter or switch was changed: plan again at the next prepare().
+    /// Plan again at the next prepare(), even if nothing seems to have changed.
     void touch() { dirty_ = true; }
-    /// Camera cut: persistent and previous contents are void.
-    void reset_history();
+    /// How often it was planned, for tests and the log.
+    uint64_t plans() const { return plans_; }
+    /// Camera cut, or a jump in time: persistent and previous contents are void.
+    void reset_history() { invalidation_.cut(); }
+    /// What "rebuild" is unless a person sets it; stays when the graph file is reloaded.
+    void set_default_rebuild(Rebuild rebuild);
     /// After a GPU reset: disables the programs that were compiled last, which hung it.
     std::vector<std::filesystem::path> newest_program_files() const;
     void disable_programs(const std::vector<std::filesystem::path>& files);
@@ -73,10 +72,12 @@ class Graph {
     void finish_timings();
     /// Starts the statistics afresh (after a warm-up).
     void forget_timings();
-    PassTiming timing(const std::string& id) const;
+    PassTiming timing(const std::string& id) const { return timings_.of(id); }
     /// What the passes counted in the newest frame that has been read back.
     const std::vector<CounterValue>& counters() const { return counters_.newest(); }
-    double frame_ms() const; ///< sum of the passes' medians
+    /// Milliseconds a frame. every_frame: the sum of the passes' medians; on_change: the mean over the last frames, in
+    /// which passes that did not run cost nothing.
+    double frame_ms() const;
     /// The texture behind a resource; null for buffers and unknown names.
     const GpuTexture* texture(const std::string& resource) const;
     const Buffer* buffer(const std::string& resource) const;
@@ -90,15 +91,6 @@ class Graph {
 
   private:
     friend class PassContext;
-    struct Times {
-        struct Part {
-            std::unique_ptr<GpuTimer> timer;
-            std::deque<double> ready;
-        };
-        std::vector<Part> parts; ///< one, or one a step of a loop; a frame's time is their sum
-        std::deque<double> history;
-    };
-
     /// The text that was last given to the driver, and what it said.
     struct Built {
         std::string text;
@@ -110,9 +102,9 @@ class Graph {
     Defines formats_of(const PlanPass& pass) const;
     std::vector<std::string> check_interface(const PassNode& node, const PlanPass& pass,
                                              const ProgramInterface& interface) const;
-    void take_timings(Times& times);
+    bool needs_plan(const SceneFacts& facts, glm::ivec2 size);
     void run_loop(size_t first, size_t last);
-    void run_pass(const PlanPass& pass, int from, int to);
+    void run_pass(size_t index, int from, int to);
     void ask_whether_outgrown();
     void fill_failed(const PlanPass& pass);
     void look_for_nan(const PlanPass& pass);
@@ -124,24 +116,27 @@ class Graph {
     Plan plan_;
     bool planned_ = false;
     bool dirty_ = true;
-    bool history_valid_ = false;
+    uint64_t plans_ = 0;
+    std::vector<bool> planned_switches_; ///< of the nodes
+    Rebuild default_rebuild_ = Rebuild::every_frame;
+    Invalidation invalidation_;
     bool outgrown_ = false; ///< a pass wants more room than this plan gives
-    TimerMode timer_mode_;
+    Timings timings_;
     Allocations allocations_;
     Counters counters_;
     FileWatch watch_;
-    std::map<std::string, Times> times_;
     std::map<std::string, Built> built_;       ///< per "id/program"
     std::map<std::string, std::string> broke_; ///< pass id → why it could not run in the newest frame
     std::vector<std::filesystem::path> newest_files_;
     std::string file_problem_, plan_problem_;
     SceneFacts planned_facts_;
-    Buffer frame_buffer_;
+    Buffer empty_buffer_; ///< for storage blocks that nothing fills
     Sampler comparison_sampler_;
     VertexArray empty_vertex_array_;
     std::map<std::tuple<GLenum, std::array<float, 4>, std::array<int, 2>>, GpuTexture> neutrals_;
     std::unique_ptr<NanCheck> nan_check_;
     std::map<std::string, uint64_t> non_finite_;
+    bool checked_nan_ = false; ///< in the last frame
     uint64_t frames_ = 0;
     const FrameInputs* inputs_ = nullptr; ///< while executing
 };

@@ -4,6 +4,7 @@
 #include "core/paths.h"
 #include "core/text.h"
 #include "graph/expression.h"
+#include "graph/model_values.h"
 #include "graph/script_pass.h"
 
 #include <algorithm>
@@ -39,16 +40,16 @@ static SceneFacts usual_scene() {
     return facts;
 }
 
-/// What is compiled in tells which slots there are: after it changed, they are read again.
-static void scan_by_values(GraphModel& model, PassNode& node) {
-    if (!model.static_values(node).empty()) model.scan(node);
-}
-
 GraphModel::GraphModel(GraphFile file) : file_(std::move(file)) {
     ErrorList errors;
     for (const std::string& message : file_.errors)
         errors.add(message);
+    graph_parameters_.declare_shader_parameter(rebuild_parameter());
     for (const ParameterInfo& info : file_.parameters) {
+        if (info.name == k_rebuild) {
+            errors.add("parameters: 'rebuild' is a parameter that every graph has: name this one otherwise");
+            continue;
+        }
         ParameterInfo declared = info;
         declared.in_shader = true; // no C++ member behind it
         graph_parameters_.declare_shader_parameter(declared);
@@ -71,7 +72,7 @@ GraphModel::GraphModel(GraphFile file) : file_(std::move(file)) {
             errors.add(fmt::format("pass '{}': params_of names no earlier pass: '{}'", entry.id, entry.params_of));
         scan(*node);
         apply_file_values(*node, errors);
-        scan_by_values(*this, *node);
+        scan_by_values(*node);
         nodes_.push_back(std::move(node));
     }
     for (const std::string& name : {file_.transport.occlusion_distance, file_.transport.occlusion_falloff}) {
@@ -120,6 +121,11 @@ void GraphModel::scan(PassNode& node, const Defines& formats) {
     if (!broken) node.parameters.keep_shader_parameters(names);
 }
 
+/// What is compiled in tells which slots there are: after it changed, they are read again.
+void GraphModel::scan_by_values(PassNode& node) {
+    if (!static_values(node).empty()) scan(node);
+}
+
 /// A graph file's value may be an expression over the graph's own parameters: "=resolution / 2".
 static std::optional<std::string> as_expression(const std::string& json_text) {
     if (!json_text.starts_with("\"=")) return std::nullopt;
@@ -140,10 +146,19 @@ static std::optional<double> graph_number(const ParameterSet& parameters, std::s
 }
 
 std::optional<double> GraphModel::number(const std::string& name) const {
-    if (auto found = graph_number(graph_parameters_, name)) return found;
+    if (auto found = graph_number(graph_parameters_, name)) {
+        if (noting_) noted_.insert(name.starts_with("graph.") ? name : "graph." + name);
+        return found;
+    }
     size_t dot = name.find('.');
     const PassNode* node = dot == std::string::npos ? nullptr : find_node(name.substr(0, dot));
+    if (node && noting_) noted_.insert(name);
     return node ? number_of(node->parameters.find(name.substr(dot + 1))) : std::nullopt;
+}
+
+std::set<std::string> GraphModel::note_numbers(bool on) const {
+    noting_ = on;
+    return std::exchange(noted_, {});
 }
 
 void GraphModel::apply_file_values(PassNode& node, ErrorList& errors) {
@@ -181,17 +196,21 @@ Parameter& GraphModel::parameter(const std::string& name) {
                                         name, full));
         }
     }
-    auto [id, parameter] = split_name(name);
-    ParameterSet* set = nullptr;
-    if (id == "graph")
-        set = &graph_parameters_;
-    else if (PassNode* node = find_node(id))
-        set = &node->parameters;
-    Parameter* found = set ? set->find(parameter) : nullptr;
+    split_name(name);
+    const Parameter* found = find_parameter(name);
     if (!found)
         throw Error(fmt::format("there is no parameter '{}' in graph '{}'{}", name, file_.name,
                                 did_you_mean(name, parameter_names())));
-    return *found;
+    return *const_cast<Parameter*>(found);
+}
+
+const Parameter* GraphModel::find_parameter(const std::string& name) const {
+    size_t dot = name.find('.');
+    if (dot == std::string::npos) return nullptr;
+    std::string id = name.substr(0, dot), own = name.substr(dot + 1);
+    if (id == "graph") return graph_parameters_.find(own);
+    const PassNode* node = find_node(id);
+    return node ? node->parameters.find(own) : nullptr;
 }
 
 const Parameter& GraphModel::parameter(const std::string& name) const {
@@ -207,9 +226,12 @@ const Parameter* GraphModel::parameter_of(const PassNode& node, const std::strin
 void GraphModel::set(const std::string& name, const std::string& text, ParameterOrigin origin) {
     parameter(name); // reports an unknown name with the nearest of the whole graph
     auto [id, own] = split_name(name);
+    changes_.insert(name);
     if (id != "graph") {
-        find_node(id)->parameters.set_text(own, text, origin);
-        if (!find_node(id)->parameters.find(own)->info.is_static) return;
+        PassNode& owner = *find_node(id);
+        owner.parameters.set_text(own, text, origin);
+        if (!owner.parameters.find(own)->info.in_shader) owner.pass->forget_growth();
+        if (!owner.parameters.find(own)->info.is_static) return;
         for (const auto& node : nodes_)
             if (node->id() == id || node->entry.params_of == id) scan(*node); // other slots may be there now
         return;
@@ -224,6 +246,8 @@ void GraphModel::set(const std::string& name, const std::string& text, Parameter
             double value =
                 evaluate(*expression, [&](const std::string& n) { return graph_number(graph_parameters_, n); });
             node->parameters.set_text(derived, fmt::format("{}", value), ParameterOrigin::graph);
+            changes_.insert(node->id() + "." + derived);
+            if (!target->info.in_shader) node->pass->forget_growth();
         }
     }
 }
@@ -249,18 +273,6 @@ std::vector<std::filesystem::path> GraphModel::files() const {
         }
     }
     return files;
-}
-
-void GraphModel::adopt_values(const GraphModel& old) {
-    graph_parameters_.adopt(old.graph_parameters_);
-    for (const auto& node : nodes_) {
-        const PassNode* before = old.find_node(node->id());
-        if (!before || before->entry.type != node->entry.type) continue;
-        node->parameters.adopt(before->parameters);
-        if (before->entry.enabled == node->entry.enabled) node->enabled = before->enabled;
-    }
-    for (const auto& node : nodes_)
-        scan_by_values(*this, *node);
 }
 
 void GraphModel::adopt_programs(GraphModel& other) {

@@ -5,6 +5,10 @@
 #include "graph/plan.h"
 
 #include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace bounce {
 
@@ -18,6 +22,27 @@ struct PassNode {
 
     const std::string& id() const { return entry.id; }
     Program* program(const std::string& name) const;
+};
+
+/// Which passes run in a frame.
+enum class Rebuild {
+    every_frame, ///< all, as methods are measured
+    on_change    ///< those whose inputs have changed; what the others made stands
+};
+
+/// What a person set, for a graph that takes another's place.
+struct GraphValues {
+    struct Value {
+        std::string name;  ///< "id.parameter"
+        std::string owner; ///< the pass's type, or "graph"
+        ParameterKind kind = ParameterKind::real;
+        std::string text;
+        ParameterOrigin origin = ParameterOrigin::command_line;
+    };
+    std::vector<Value> parameters;                      ///< also those that were put back to their default
+    std::vector<std::pair<std::string, bool>> switches; ///< pass → on or off, where the file says otherwise
+    /// As options of the command line: "--set a.b=1 --enable c".
+    std::string options() const;
 };
 
 class GraphModel {
@@ -36,10 +61,19 @@ class GraphModel {
     void set(const std::string& name, const std::string& text, ParameterOrigin origin);
     Parameter& parameter(const std::string& name);
     const Parameter& parameter(const std::string& name) const;
+    /// The same; null when there is none.
+    const Parameter* find_parameter(const std::string& name) const;
     /// What a uniform of the pass takes its value from: its own parameter, or that of the pass that `params_of` names.
     const Parameter* parameter_of(const PassNode& node, const std::string& name) const;
     /// The value of a scalar parameter ("id.name", "graph.name" or the bare name of one of the graph's own).
     std::optional<double> number(const std::string& name) const;
+    /// From note_numbers(true) on, number() notes whose values it gives ("id.name"); note_numbers(false) returns them.
+    std::set<std::string> note_numbers(bool on) const;
+    /// The parameters that were set since the last call ("id.name").
+    std::set<std::string> take_changes() { return std::exchange(changes_, {}); }
+    /// Of the graph's own parameter "rebuild", which every graph has.
+    Rebuild rebuild() const;
+    void set_default_rebuild(Rebuild rebuild);
     /// Every parameter as "id.name".
     std::vector<std::string> parameter_names() const;
 
@@ -59,20 +93,26 @@ class GraphModel {
     Plan plan(const SceneFacts& facts, glm::ivec2 size) const;
     /// Every file whose change matters: the graph file and the closures of all shaders.
     std::vector<std::filesystem::path> files() const;
-    /// Takes over values that a person set (and switches) from the model that this one replaces.
-    void adopt_values(const GraphModel& old);
+    GraphValues values() const;
+    /// Takes over what a person set in another graph, or in this one at another time, as far as there are such passes
+    /// with such parameters, whose ranges allow it.
+    void adopt_values(const GraphValues& values);
     /// Takes compiled programs from another model where the pass and the shader files are the same; what stood here
     /// goes there.
     void adopt_programs(GraphModel& other);
 
   private:
     void apply_file_values(PassNode& node, ErrorList& errors);
+    void scan_by_values(PassNode& node);
     bool is_made(const std::string& resource) const;
     std::vector<std::string> off_among(std::vector<const PassNode*> open) const;
 
     GraphFile file_;
     ParameterSet graph_parameters_;
     std::vector<std::unique_ptr<PassNode>> nodes_;
+    std::set<std::string> changes_;
+    mutable bool noting_ = false;
+    mutable std::set<std::string> noted_;
 };
 
 } // namespace bounce

@@ -3,6 +3,7 @@
 
 #include "core/parameters.h"
 #include "gpu/program.h"
+#include "graph/pass_inputs.h"
 #include "graph/resource.h"
 #include "scene/scene.h"
 
@@ -63,10 +64,19 @@ class Declaration {
   public:
     Declaration(const SceneFacts& scene_facts, glm::ivec2 picture,
                 std::function<std::vector<ShaderSlot>(const std::string&)> slots)
-        : facts(scene_facts), size(picture), slots_of_(std::move(slots)) {}
+        : facts_(scene_facts), picture_size_(picture), slots_of_(std::move(slots)) {}
 
-    const SceneFacts& facts;
-    glm::ivec2 size; ///< the picture's
+    /// What the scene holds: fact(&SceneFacts::triangles). What is asked for is an input of the pass, as far as what it
+    /// remembers of it for execute().
+    template <class T>
+    const T& fact(T SceneFacts::*member) {
+        facts_read_.insert({offset_of(member), sizeof(T)});
+        return facts_.*member;
+    }
+    glm::ivec2 picture_size() {
+        picture_size_read_ = true;
+        return picture_size_;
+    }
 
     /// Makes a resource that this pass writes. (The graph file may change its format or size.)
     ResourceDeclaration& creates(const std::string& name, ResourceKind kind, const std::string& format, Extent extent);
@@ -95,10 +105,16 @@ class Declaration {
     const std::vector<std::string>& programs() const { return programs_; }
     const std::vector<SlotUse>& slot_uses() const { return uses_; }
     const std::vector<ResourceDeclaration>& resources() const { return resources_; }
+    const std::set<ByteRange>& facts_read() const { return facts_read_; }
+    bool picture_size_read() const { return picture_size_read_; }
     int repeat_from = 0, repeat_to = 1;
     std::string loop;
 
   private:
+    const SceneFacts& facts_;
+    glm::ivec2 picture_size_;
+    std::set<ByteRange> facts_read_;
+    bool picture_size_read_ = false;
     std::function<std::vector<ShaderSlot>(const std::string&)> slots_of_;
     std::vector<SlotUse> uses_;
     std::vector<std::string> programs_;
@@ -120,8 +136,9 @@ class Pass {
     /// and the pass wants to be planned again, with more (a window shows that in the next frame, headless runs render
     /// the frame again).
     virtual bool outgrown(const std::vector<int64_t>&) { return false; }
-    /// Told when history is gone (camera cut, resize, reload); what the pass kept across frames is void.
-    virtual void reset_history() {}
+    /// One of its C++ parameters was set: what it had grown to was for other settings. It starts as a fresh one does,
+    /// so that it comes to the same batches.
+    virtual void forget_growth() {}
 };
 
 struct PassType {

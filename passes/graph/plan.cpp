@@ -104,6 +104,8 @@ class Planner {
         pass.repeat_from = declaration.repeat_from;
         pass.repeat_to = declaration.repeat_to;
         pass.loop = declaration.loop;
+        pass.facts_read = declaration.facts_read();
+        pass.picture_size_read = declaration.picture_size_read();
         for (SlotUse& use : pass.uses) {
             if (use.where.empty()) use.where = "pass '" + node.id() + "'";
             pass.targets.push_back(target_of(node, use.slot));
@@ -354,6 +356,8 @@ class Planner {
             pass.repeat_from = declared.repeat_from;
             pass.repeat_to = declared.repeat_to;
             pass.loop = declared.loop;
+            pass.facts_read = declared.facts_read;
+            pass.picture_size_read = declared.picture_size_read;
             for (size_t i = 0; i < declared.uses.size(); ++i) {
                 PlanSlot slot{declared.uses[i],    -1,        is_builtin(declared.uses[i].slot), glm::vec4(0),
                               declared.targets[i], plan_.size};
@@ -372,7 +376,7 @@ class Planner {
                     if (slot.use.writes) add(resource.writers);
                     if (slot.use.reads) add(resource.readers);
                     if (slot.use.writes && written.insert(slot.resource).second && !resource.declaration.persistent &&
-                        !resource.declaration.overwritten) {
+                        !resource.declaration.incremental && !resource.declaration.overwritten) {
                         pass.clears.push_back(slot.resource);
                     }
                 }
@@ -403,7 +407,10 @@ class Planner {
 } // namespace
 
 Plan make_plan(const GraphModel& model, const SceneFacts& facts, glm::ivec2 size, ErrorList& errors) {
-    return Planner(model, facts, size, errors).run();
+    model.note_numbers(true);
+    Plan plan = Planner(model, facts, size, errors).run();
+    plan.numbers = model.note_numbers(false);
+    return plan;
 }
 
 Plan GraphModel::plan(const SceneFacts& facts, glm::ivec2 size) const {

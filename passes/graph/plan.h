@@ -7,6 +7,7 @@
 #include "graph/pass.h"
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -50,7 +51,9 @@ struct PlanPass {
     GLbitfield barriers = 0;      ///< before the first step
     GLbitfield step_barriers = 0; ///< between steps
     std::vector<PlanCounter> counters;
-    std::vector<int> clears; ///< resources cleared before it, because it writes them first
+    std::vector<int> clears;        ///< resources cleared before it, because it writes them first
+    std::set<ByteRange> facts_read; ///< of SceneFacts, by its declaration
+    bool picture_size_read = false; ///< likewise
     const PlanSlot* find(const std::string& slot) const;
     bool runs(const std::string& program) const;
 };
@@ -65,6 +68,7 @@ struct Plan {
     std::vector<PlanPass> passes;
     std::vector<PlanDecline> declined;
     std::vector<PlanResource> resources;
+    std::set<std::string> numbers; ///< parameters ("id.name") that expressions of the plan take their values from
     uint64_t total_bytes() const;
     const PlanResource* find_resource(const std::string& name) const;
     std::vector<std::string> resource_names() const;
@@ -81,6 +85,8 @@ std::optional<double> scene_fact(const SceneFacts& facts, const std::string& nam
 void place_barriers(Plan& plan);
 
 class GraphModel;
+/// A number by name while a frame runs: a graph or pass parameter ("id.name"), a side of a resource ("a.b.width").
+std::optional<double> number_in_frame(const GraphModel& model, const Plan& plan, const std::string& name);
 /// Plans a frame; collects all that is wrong, as far as one error does not follow from another. The plan is to be used
 /// only when there is none.
 Plan make_plan(const GraphModel& model, const SceneFacts& facts, glm::ivec2 size, ErrorList& errors);

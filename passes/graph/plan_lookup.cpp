@@ -1,8 +1,7 @@
 // Finds things in a plan by name, and counts of the scene.
-#include "graph/plan.h"
+#include "graph/model.h"
 
 #include <algorithm>
-
 #include <utility>
 
 namespace bounce {
@@ -46,6 +45,16 @@ std::optional<double> side_of(const PlanResource& resource, const std::string& s
     if (side == "mips") return resource.texture.mips;
     if (side == "count") return double(resource.count);
     return std::nullopt;
+}
+
+std::optional<double> number_in_frame(const GraphModel& model, const Plan& plan, const std::string& name) {
+    size_t last = name.rfind('.');
+    if (last != std::string::npos) {
+        const PlanResource* resource = plan.find_resource(name.substr(0, last));
+        auto side = resource ? side_of(*resource, name.substr(last + 1)) : std::nullopt;
+        if (side) return side;
+    }
+    return model.number(name);
 }
 
 std::optional<double> scene_fact(const SceneFacts& facts, const std::string& name) {

@@ -82,7 +82,9 @@ std::string plan_text(const GraphModel& model, const Plan& plan) {
         out += fmt::format("    {}: {}\n", declined.id, declined.reason);
     out += "\nresources:\n";
     for (const PlanResource& resource : plan.resources) {
-        std::string flags = resource.declaration.persistent ? ", persistent" : "";
+        std::string flags = resource.declaration.persistent    ? ", persistent"
+                            : resource.declaration.incremental ? ", incremental"
+                                                               : "";
         if (resource.needs_previous) flags += ", with last frame's copy";
         out += fmt::format("    {:<28} {:<44} {:>14} bytes{}\n", resource.name(), shape_text(resource),
                            resource.total_bytes(), flags);

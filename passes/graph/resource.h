@@ -30,10 +30,13 @@ struct ResourceDeclaration {
     ResourceKind kind = ResourceKind::texture_2d;
     std::string format = "rgba16f";
     Extent size;
-    std::string mips = "1";   ///< expression, or "full"
-    std::string count = "0";  ///< buffers: elements
-    int stride = 4;           ///< buffers: bytes an element
-    bool persistent = false;  ///< not cleared between frames
+    std::string mips = "1";  ///< expression, or "full"
+    std::string count = "0"; ///< buffers: elements
+    int stride = 4;          ///< buffers: bytes an element
+    bool persistent = false; ///< not cleared between frames: its pass adds to what earlier frames left
+    /// Not cleared between frames either; but its content follows from this frame's inputs alone, and what stands from
+    /// earlier frames only saves work. It is reset when anything but the passing of frames changes it.
+    bool incremental = false;
     bool overwritten = false; ///< every element is written each frame, so it need not be cleared first
     glm::vec4 neutral{0};     ///< what consumers read when its pass declined; also the clear value
     std::string declared_by;  ///< pass id or "graph file"

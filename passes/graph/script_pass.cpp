@@ -26,11 +26,11 @@ void ScriptPass::execute(PassContext& context) {
     glm::ivec3 threads(1);
     if (!dispatch.threads.empty()) {
         auto lookup = [&](const std::string& name) -> std::optional<double> {
-            if (name == "width") return context.frame().resolution.x;
-            if (name == "height") return context.frame().resolution.y;
+            if (name == "width") return context.frame(&FrameConstants::resolution).x;
+            if (name == "height") return context.frame(&FrameConstants::resolution).y;
             if (name == "iteration") return context.iteration;
-            if (name == "lights") return context.frame().light_count;
-            if (name == "triangles") return double(context.facts().triangles);
+            if (name == "lights") return context.frame(&FrameConstants::light_count);
+            if (name == "triangles") return double(context.fact(&SceneFacts::triangles));
             return context.number(name);
         };
         for (size_t i = 0; i < dispatch.threads.size(); ++i)

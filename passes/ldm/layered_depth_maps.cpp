@@ -51,8 +51,9 @@ class LayeredDepthMapsPass : public Pass {
         d.creates_buffer("ldm.lists", std::to_string(texels * slots_ + capacity_ * node_words()), 4).overwritten = true;
         // Behind the counters: the draws' first triangles, and a word for each group of triangles in each map of a
         // batch (see ldm/build.comp).
-        int64_t groups = route_ == Route::compute ? groups_of(int64_t(d.facts.triangles)) + 1 : 0;
-        d.creates_buffer("ldm.counts", std::to_string(k_counts + int64_t(d.facts.instances) + 1 + 2 * groups * slots_),
+        int64_t groups = route_ == Route::compute ? groups_of(int64_t(d.fact(&SceneFacts::triangles))) + 1 : 0;
+        d.creates_buffer("ldm.counts",
+                         std::to_string(k_counts + int64_t(d.fact(&SceneFacts::instances)) + 1 + 2 * groups * slots_),
                          4);
         d.creates_buffer("ldm.batches", std::to_string(batches_), 4);
         for (const char* name : {"ldm.views", "ldm.info", "ldm.lists"})
@@ -85,12 +86,14 @@ class LayeredDepthMapsPass : public Pass {
         return true;
     }
 
+    void forget_growth() override { grown_ = 0; }
+
     void execute(PassContext& c) override {
         auto wait = [] { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); };
         if (c.iteration == 0) write_views(c);
         c.set("batch", c.iteration);
         int heads = slots_ * resolution_ * resolution_, for_each_head = std::min(heads, 1 << 22);
-        c.set("marks_from", int(k_counts + c.scene().draw_list().size() + 1));
+        c.set("marks_from", int(k_counts + c.draws().size() + 1));
         c.dispatch("start_batch", {for_each_head, 1, 1});
         wait();
         build(c, (maps_ - c.iteration + batches_ - 1) / batches_);
@@ -123,7 +126,7 @@ class LayeredDepthMapsPass : public Pass {
             c.draw_scene("build", none, options);
             return;
         }
-        const std::vector<GpuDraw>& draws = c.scene().draw_list();
+        const std::vector<GpuDraw>& draws = c.draws();
         std::vector<uint32_t> starts{0};
         for (const GpuDraw& draw : draws)
             starts.push_back(starts.back() + draw.index_count / 3);
@@ -147,10 +150,11 @@ class LayeredDepthMapsPass : public Pass {
 
     void write_views(PassContext& c) {
         std::vector<LdmView> views;
-        glm::mat3 turn = rotate_ ? turn_of_frame(c.frame().frame_index) : glm::mat3(1);
+        glm::mat3 turn = rotate_ ? turn_of_frame(c.frame(&FrameConstants::frame_index)) : glm::mat3(1);
         if (tilted_) turn = turn * tilt_off_axes();
         for (glm::vec3 direction : ldm_directions(maps_))
-            views.push_back(ldm_view(glm::normalize(turn * direction), c.facts().bounds_over_animation, resolution_));
+            views.push_back(
+                ldm_view(glm::normalize(turn * direction), c.fact(&SceneFacts::bounds_over_animation), resolution_));
         c.buffer("ldm.views").update(0, views.size() * sizeof(LdmView), views.data());
         LdmInfo info{maps_,        resolution_,        batches_,        slots_, slots_ * resolution_ * resolution_,
                      node_words(), int32_t(capacity_), arrays() ? 1 : 0};

@@ -61,6 +61,8 @@ class PhotonsPass : public Pass {
         return true;
     }
 
+    void forget_growth() override { grown_ = 0; }
+
     void execute(PassContext& c) override {
         auto wait = [] { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); };
         glm::ivec3 map = c.texture("rsm.depth").desc().size;

@@ -29,7 +29,8 @@ class SplatPass : public Pass {
     }
 
     void declare(Declaration& d) override {
-        d.creates("photons.irradiance", ResourceKind::texture_2d, "rgba32f", Extent(size(d.size.x), size(d.size.y)));
+        d.creates("photons.irradiance", ResourceKind::texture_2d, "rgba32f",
+                  Extent(size(d.picture_size().x), size(d.picture_size().y)));
         d.reads("photons.commands", Usage::indirect);
         if (route_ == Route::blend) {
             d.uses("blend");
@@ -37,7 +38,7 @@ class SplatPass : public Pass {
         } else {
             d.creates_buffer("photons.boxes", "photons.stored.count", 8).overwritten = true;
             d.creates_buffer("photons.chunks", "ceil(photons.stored.count / 256)", 8).overwritten = true;
-            int tiles = ((size(d.size.x) + 7) / 8) * ((size(d.size.y) + 7) / 8);
+            int tiles = ((size(d.picture_size().x) + 7) / 8) * ((size(d.picture_size().y) + 7) / 8);
             declare_prefix_sum(d, "photons.chunks.count * " + std::to_string(tiles));
             d.creates_buffer("splat.lists", grown_ > 0 ? std::to_string(grown_) : "4 * photons.stored.count", 4)
                 .overwritten = true;
@@ -56,6 +57,8 @@ class SplatPass : public Pass {
         grown_ = wanted;
         return true;
     }
+
+    void forget_growth() override { grown_ = 0; }
 
     void execute(PassContext& c) override {
         c.set("splat_size", glm::vec2(c.size("photons.irradiance")));

@@ -28,7 +28,7 @@ class LrsmLayersPass : public Pass {
 
     void declare(Declaration& d) override {
         using enum ResourceKind;
-        int views = shadow_view_count(d.facts);
+        int views = shadow_view_count(d);
         int layers = std::max(views, 1) * depth_layers_ * normal_layers_;
         pool_layers_ = skip_empty_ && pool_ > 0 ? std::min(pool_, layers) : layers;
         // "A quarter" of the map counts texels.

@@ -22,7 +22,7 @@ class GbufferPass : public Pass {
         target("gbuffer.normal", "rgba16f");
         target("gbuffer.geometric_normal", "rgba16f");
         target("gbuffer.roughness_metallic", "rg16");
-        emission_ = d.facts.emissive_materials > 0;
+        emission_ = d.fact(&SceneFacts::emissive_materials) > 0;
         if (emission_) target("gbuffer.emission", "rgba16f");
         d.creates("gbuffer.depth", texture_2d, "depth32f", {});
         d.writes("gbuffer.depth", Usage::depth);

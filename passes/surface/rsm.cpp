@@ -19,7 +19,7 @@ class RsmPass : public Pass {
 
     void declare(Declaration& d) override {
         using enum ResourceKind;
-        int views = shadow_view_count(d.facts);
+        int views = shadow_view_count(d);
         d.uses("draw");
         auto target = [&](const char* name, const char* format, Usage usage) {
             d.creates(name, texture_2d_array, format, {resolution_, resolution_, std::max(views, 1)});
@@ -35,11 +35,10 @@ class RsmPass : public Pass {
 
     void execute(PassContext& c) override {
         if (c.iteration == 0) {
-            std::vector<ShadowView> views =
-                shadow_views(lights_of(c.scene()), c.facts().bounds_over_animation, resolution_);
+            std::vector<ShadowView> views = shadow_views(c, resolution_);
             c.buffer("rsm.views").update(0, views.size() * sizeof(ShadowView), views.data());
         }
-        const std::vector<GpuLight>& lights = c.scene().light_list();
+        const std::vector<GpuLight>& lights = c.lights();
         int light = 0;
         while (light + 1 < int(lights.size()) && lights[size_t(light) + 1].shadow_base <= c.iteration)
             ++light;

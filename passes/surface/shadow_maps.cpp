@@ -18,7 +18,7 @@ class ShadowMapsPass : public Pass {
     }
 
     void declare(Declaration& d) override {
-        int views = shadow_view_count(d.facts);
+        int views = shadow_view_count(d);
         d.uses("opaque");
         d.uses("alpha_tested");
         d.creates("shadow.depth", ResourceKind::texture_2d_array, "depth32f",
@@ -31,8 +31,7 @@ class ShadowMapsPass : public Pass {
 
     void execute(PassContext& c) override {
         if (c.iteration == 0) {
-            std::vector<ShadowView> views =
-                shadow_views(lights_of(c.scene()), c.facts().bounds_over_animation, resolution_);
+            std::vector<ShadowView> views = shadow_views(c, resolution_);
             c.buffer("shadow.views").update(0, views.size() * sizeof(ShadowView), views.data());
         }
         glEnable(GL_DEPTH_TEST);
@@ -43,13 +42,12 @@ class ShadowMapsPass : public Pass {
         targets.layer = c.iteration;
         c.set("view_index", c.iteration);
         auto tested = [&](int draw) {
-            return c.scene().material_list()[c.scene().draw_list()[size_t(draw)].material].alpha_mode !=
-                   AlphaMode::opaque;
+            return c.materials()[c.draws()[size_t(draw)].material].alpha_mode != AlphaMode::opaque;
         };
         DrawOptions options;
         options.keep = [&](int draw) { return !tested(draw); };
         c.draw_scene("opaque", targets, options);
-        if (c.facts().alpha_tested_materials + c.facts().blended_materials == 0) return;
+        if (c.fact(&SceneFacts::alpha_tested_materials) + c.fact(&SceneFacts::blended_materials) == 0) return;
         options.keep = tested;
         c.draw_scene("alpha_tested", targets, options);
     }

@@ -84,21 +84,21 @@ std::vector<ShadowView> shadow_views(const std::vector<Light>& lights, const Bou
     return views;
 }
 
-int shadow_view_count(const SceneFacts& facts) {
-    return int(facts.spot_lights + facts.directional_lights + 6 * facts.point_lights);
+int shadow_view_count(Declaration& d) {
+    return int(d.fact(&SceneFacts::spot_lights) + d.fact(&SceneFacts::directional_lights) +
+               6 * d.fact(&SceneFacts::point_lights));
 }
 
-std::vector<Light> lights_of(const GpuScene& scene) {
+std::vector<ShadowView> shadow_views(const PassContext& context, int resolution) {
     std::vector<Light> lights;
-    for (const GpuLight& packed : scene.light_list()) {
-        Light light;
+    for (const GpuLight& packed : context.lights()) {
+        Light& light = lights.emplace_back();
         light.type = LightType(packed.type);
         light.position = packed.position;
         light.direction = packed.direction;
         light.outer_cone = std::acos(packed.outer_cone_cos);
-        lights.push_back(light);
     }
-    return lights;
+    return shadow_views(lights, context.fact(&SceneFacts::bounds_over_animation), resolution);
 }
 
 } // namespace bounce

@@ -2,7 +2,7 @@
 // The views from which lights see the scene: one of a spot or directional light, six of a point light. Shadow maps and
 // reflective shadow maps share them.
 
-#include "graph/gpu_scene.h"
+#include "graph/context.h"
 #include "scene/scene.h"
 
 #include <vector>
@@ -29,8 +29,8 @@ static_assert(sizeof(ShadowView) == 112);
 std::vector<ShadowView> shadow_views(const std::vector<Light>& lights, const Bounds& bounds, int resolution);
 
 /// How many there are: one of a spot or directional light, six of a point light.
-int shadow_view_count(const SceneFacts& facts);
-/// The lights as they lie on the GPU this frame (what views need of them).
-std::vector<Light> lights_of(const GpuScene& scene);
+int shadow_view_count(Declaration& declaration);
+/// The views of this frame's lights.
+std::vector<ShadowView> shadow_views(const PassContext& context, int resolution);
 
 } // namespace bounce

@@ -41,7 +41,7 @@ class OcclusionVoxelsPass : public Pass {
             d.uses("raster");
             return;
         }
-        d.creates_buffer("voxels.draw_starts", std::to_string(d.facts.instances + 1), 4);
+        d.creates_buffer("voxels.draw_starts", std::to_string(d.fact(&SceneFacts::instances) + 1), 4);
         d.uses(bits ? "bits" : "compute");
         d.writes("voxels.draw_starts", Usage::storage);
         if (bits) {
@@ -61,7 +61,7 @@ class OcclusionVoxelsPass : public Pass {
             return;
         }
         std::vector<uint32_t> starts{0};
-        for (const GpuDraw& draw : c.scene().draw_list())
+        for (const GpuDraw& draw : c.draws())
             starts.push_back(starts.back() + draw.index_count / 3);
         const Buffer& buffer = c.buffer("voxels.draw_starts");
         // Facts may count more instances than this frame draws: what is left over repeats the end.

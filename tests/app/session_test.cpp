@@ -140,6 +140,29 @@ TEST_F(SessionTest, AfterAResetOfTheGpuEverythingIsMadeAgain) {
     EXPECT_EQ(session.graph().model().parameter("tonemap.exposure").value, ParameterValue(1.0f));
 }
 
+/// Values and switches that differ from the graph's file only in who set them, too.
+TEST_F(SessionTest, AfterAResetOfTheGpuNothingThatAPersonSetIsLost) {
+    root.edit("assets/graphs/direct.json", "\"type\": \"gbuffer\"",
+              "\"type\": \"gbuffer\", \"params\": { \"cull_back_faces\": true }");
+    Session session(options());
+    session.set_parameter("gbuffer.cull_back_faces", "false", ParameterOrigin::panel); // its default, not the graph's
+    session.set_parameter("graph.rebuild", "on_change", ParameterOrigin::panel);
+    session.graph().model().switch_pass("direct", false);
+    session.graph().check_nan = true;
+    session.render();
+    std::string line = session.command_line("x.png");
+    EXPECT_THAT(line, AllOf(HasSubstr("--set gbuffer.cull_back_faces=false"), HasSubstr("--disable direct")));
+    std::vector<float> before = picture(session);
+    session.release_gpu();
+    session.restore_gpu();
+    EXPECT_EQ(session.command_line("x.png"), line);
+    EXPECT_TRUE(session.graph().check_nan);
+    root.edit("glsl/surface/tonemap.comp", "void main()", "// edited\nvoid main()");
+    session.poll_files();
+    session.render();
+    EXPECT_EQ(picture(session), before);
+}
+
 TEST_F(SessionTest, MetadataAndTimings) {
     Session session(options());
     session.render();

@@ -177,23 +177,3 @@ TEST(Parameters, ShaderParametersKeepValuesByNameAndKind) {
     EXPECT_EQ(set.find("gain"), nullptr);
     EXPECT_NE(set.find("own"), nullptr);
 }
-
-TEST(Parameters, AReplacedSetHandsOverWhatAPersonSet) {
-    float a = 0, b = 0, c = 0, d = 0;
-    ParameterSet old, next;
-    for (ParameterSet* set : {&old, &next}) {
-        bool first = set == &old;
-        set->add("graph_value", first ? a : b, {0, 9}, "", "");
-        set->add("person_value", first ? c : d, {0, first ? 9.0 : 5.0}, "", "");
-    }
-    old.set_text("graph_value", "3", ParameterOrigin::graph);
-    old.set_text("person_value", "4", ParameterOrigin::command_line);
-    next.adopt(old);
-    EXPECT_EQ(b, 0) << "the new file's value, or its absence, stands";
-    EXPECT_EQ(d, 4);
-    EXPECT_EQ(next.find("person_value")->origin, ParameterOrigin::command_line);
-    old.set_text("person_value", "8", ParameterOrigin::panel);
-    next.reset("person_value");
-    next.adopt(old);
-    EXPECT_EQ(d, 0) << "out of the new range: the new default";
-}

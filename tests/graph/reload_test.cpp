@@ -313,7 +313,7 @@ TEST_F(Reload, TenThousandReloadsLeaveNothingBehind) {
 
 TEST_F(Reload, UniformsWithoutSourceAreAnError) {
     fill_shader("fill.comp", "a_image", "stranger + resolution.x",
-                "uniform float stranger;\nuniform ivec2 resolution;");
+                "uniform float stranger;\nuniform ivec3 resolution;");
     GraphRunner run(graph_file(k_graph));
     run.frame();
     EXPECT_THAT(run.problems(), AllOf(HasSubstr("uniform 'stranger' has no source"),

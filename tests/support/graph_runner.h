@@ -18,6 +18,7 @@ class GraphRunner {
 
     glm::ivec2 size;
     SceneFacts facts;
+    FrameConstants constants; ///< of the next frame, but for resolution and frame_index
 
     /// Plans (throws Error for a bad graph, the first time) and renders one frame.
     void frame(int count = 1) {
@@ -26,6 +27,7 @@ class GraphRunner {
             FrameInputs inputs;
             inputs.scene = &gpu_scene_;
             inputs.facts = &facts;
+            inputs.constants = constants;
             inputs.constants.resolution = size;
             inputs.constants.frame_index = frame_index++;
             graph.execute(inputs);

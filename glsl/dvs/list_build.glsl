@@ -1,0 +1,10 @@
+// The list of dvs/list.glsl, for the programs of the voxelization that make it.
+#include "dvs/list_entries.glsl"
+
+layout(std430) buffer voxels_list { uint list[]; };
+layout(std430) buffer voxels_counts {
+    uvec3 groups;       // of 64 invocations, for an indirect dispatch over the list
+    uint listed;        // entries
+    uint static_listed; // of them, those of static geometry
+    uint homeless;      // voxels for which the list has no room
+};
