@@ -33,7 +33,7 @@ std::string picture_metadata(const Session& session, const std::string& resource
     json["size"] = {session.size().x, session.size().y};
     json["frame"] = session.frame();
     json["time"] = session.time();
-    json["camera"] = nlohmann::ordered_json::parse(camera_json(session.camera()));
+    json["camera"] = nlohmann::ordered_json::parse(camera_json(session.camera(), session.shot().scene.space));
     nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
     for (const auto& [name, text] : session.changed_parameters(ParameterOrigin::graph))
         parameters[name] = text;
