@@ -20,7 +20,7 @@ layout(std140) uniform Frame {
     float scene_diagonal;
     vec3 scene_max;
     float delta_time;
-    vec3 environment_radiance; // W/(sr·m²)
+    vec3 environment_radiance; // W/(sr·m²), times pre_exposure
     int environment_map;       // 1: multiply by the map
     ivec2 resolution;
     int frame_index;
@@ -29,6 +29,7 @@ layout(std140) uniform Frame {
     int shadow_view_count;
     int normal_maps;
     int material_model; // 0 plain, 1 gltf, 2 appendix_b: lib/material_model.glsl
+    float pre_exposure; // all light is multiplied by this power of two; what is shown is divided by it
 };
 
 // The direction through a pixel's centre, with a forward component of 1 (so that distance along the view is a factor).

@@ -56,6 +56,7 @@ static const std::map<std::string, Getter>& getters() {
         {"diffuse_only", [](const FrameConstants& c) -> ParameterValue { return c.diffuse_only; }},
         {"material_model", [](const FrameConstants& c) -> ParameterValue { return c.material_model; }},
         {"normal_maps", [](const FrameConstants& c) -> ParameterValue { return c.normal_maps; }},
+        {"pre_exposure", [](const FrameConstants& c) -> ParameterValue { return c.pre_exposure; }},
         {"shadow_view_count", [](const FrameConstants& c) -> ParameterValue { return c.shadow_view_count; }},
     };
     return table;

@@ -78,13 +78,15 @@ GpuTextureUse GpuScene::use_of(const TextureSlot& slot) const {
 
 void GpuScene::update_materials(const std::vector<Material>& materials) {
     material_list_ = materials;
+    for (Material& material : material_list_)
+        material.emission *= pre_exposure_;
     std::vector<GpuMaterial> packed;
     slots_.clear();
     auto bound = [&](const TextureSlot& slot, const GpuTexture& fallback) -> Bound {
         if (slot.texture < 0) return {fallback.id(), 0};
         return {views_[size_t(slot.texture)].id(), view_samplers_[size_t(slot.texture)]};
     };
-    for (const Material& m : materials) {
+    for (const Material& m : material_list_) {
         GpuMaterial out;
         out.base_colour = m.base_colour;
         out.emission = m.emission;
@@ -132,7 +134,7 @@ void GpuScene::update(const SceneState& state) {
         out.type = uint32_t(light.type);
         out.direction = light.direction;
         out.inner_cone_cos = std::cos(light.inner_cone);
-        out.intensity = light.intensity;
+        out.intensity = light.intensity * pre_exposure_;
         out.outer_cone_cos = std::cos(light.outer_cone);
         out.radius = light.radius;
         out.angular_radius = light.angular_radius;

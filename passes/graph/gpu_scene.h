@@ -57,6 +57,9 @@ class GpuScene {
     /// Uploads everything. Throws Error when memory or limits do not suffice.
     GpuScene(const Scene& scene, const Environment& environment);
 
+    /// What emission and lights are multiplied by from the next updates on (scene/pre_exposure.h).
+    void set_pre_exposure(float pre_exposure) { pre_exposure_ = pre_exposure; }
+    float pre_exposure() const { return pre_exposure_; }
     /// Draws and lights of this frame. Lights get their shadow layers in order.
     void update(const SceneState& state);
     /// Materials as edited in a panel.
@@ -77,6 +80,7 @@ class GpuScene {
 
     const std::vector<GpuDraw>& draw_list() const { return draw_list_; }
     const std::vector<GpuLight>& light_list() const { return light_list_; }
+    /// Emission is pre-exposed in it, as on the GPU.
     const std::vector<Material>& material_list() const { return material_list_; }
     int shadow_view_count() const { return shadow_view_count_; }
     GLuint vertex_array() const { return vertex_array_.id(); }
@@ -115,6 +119,7 @@ class GpuScene {
     std::vector<GpuLight> light_list_;
     std::vector<Material> material_list_;
     int shadow_view_count_ = 0;
+    float pre_exposure_ = 1;
 };
 
 } // namespace bounce
