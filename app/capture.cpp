@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/exr_file.h"
 #include "core/json_text.h"
+#include "core/log.h"
 #include "core/text.h"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ std::string picture_metadata(const Session& session, const std::string& resource
     json["size"] = {session.size().x, session.size().y};
     json["frame"] = session.frame();
     json["time"] = session.time();
-    json["camera"] = nlohmann::ordered_json::parse(camera_json(session.camera()));
+    json["camera"] = nlohmann::ordered_json::parse(camera_json(session.camera(), session.shot().scene.space));
     nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
     for (const auto& [name, text] : session.changed_parameters(ParameterOrigin::graph))
         parameters[name] = text;
@@ -43,7 +44,14 @@ std::string picture_metadata(const Session& session, const std::string& resource
     return json_dump(json);
 }
 
-Image read_layer(const GpuTexture& texture, int mip, int layer) {
+/// The fourth channel of what is light is no light (an opacity, a cosine).
+static void scale_light(Image& image, float scale) {
+    if (scale == 1) return;
+    for (size_t i = 0; i < image.pixels.size(); ++i)
+        if (int(i % size_t(image.channels)) < 3) image.pixels[i] *= scale;
+}
+
+Image read_layer(const GpuTexture& texture, int mip, int layer, float scale) {
     glm::ivec3 size = mip_size(texture.desc(), mip);
     int channels = format_by_enum(texture.desc().format).channels;
     std::vector<float> all = texture.read(mip);
@@ -51,6 +59,7 @@ Image read_layer(const GpuTexture& texture, int mip, int layer) {
     size_t stride = image.pixels.size();
     size_t first = stride * size_t(std::clamp(layer, 0, size.z - 1));
     std::copy_n(all.begin() + long(first), stride, image.pixels.begin());
+    scale_light(image, scale);
     return image;
 }
 
@@ -67,7 +76,9 @@ LayeredImage read_parts(const Session& session) {
     LayeredImage parts;
     for (const PlanResource& known : session.graph().plan().resources) {
         bool part = known.name().starts_with("out.") && known.name() != "out.display" && !known.is_buffer();
-        if (part) parts.layers[known.name()] = without_alpha(read_layer(*session.graph().texture(known.name())));
+        if (!part) continue;
+        const GpuTexture& texture = *session.graph().texture(known.name());
+        parts.layers[known.name()] = without_alpha(read_layer(texture, 0, 0, session.value_scale(known.name())));
     }
     return parts;
 }
@@ -121,12 +132,38 @@ void check_output_folder(const fs::path& path) {
         throw Error(fmt::format("'{}': there is no folder '{}'", path.string(), folder.string()));
 }
 
+/// Half floats end at 65504, and so do the shaders' stores. The pre-exposure is chosen so that this is rare; where it
+/// happens all the same (a lamp that nearly touches a surface), the picture is too dark there.
+static void warn_of_clipping(const Session& session) {
+    for (const PlanResource& known : session.graph().plan().resources) {
+        const bool part = known.name().starts_with("out.") && known.declaration.radiance && !known.is_buffer();
+        if (!part || known.name() == "out.radiance") continue;
+        const GpuTexture& texture = *session.graph().texture(known.name());
+        const Format& format = format_by_enum(texture.desc().format);
+        if (format.kind != FormatClass::floating || format.bytes / format.channels != 2) continue;
+        const Image stored = read_layer(texture);
+        size_t clipped = 0;
+        for (int y = 0; y < stored.height; ++y)
+            for (int x = 0; x < stored.width; ++x) {
+                const float* texel = stored.at(x, y);
+                clipped +=
+                    std::any_of(texel, texel + std::min(stored.channels, 3), [](float v) { return !(v < 65504); });
+            }
+        if (clipped)
+            spdlog::warn("{}: {} pixel{} clipped at {:.4g} W/(sr·m²), the most that half floats hold at this scene's "
+                         "pre-exposure",
+                         known.name(), clipped, clipped == 1 ? " is" : "s are",
+                         65504 * session.value_scale(known.name()));
+    }
+}
+
 void write_picture(const Session& session, const fs::path& path, const std::string& resource) {
     check_output_path(path);
+    if (resource.empty()) warn_of_clipping(session);
     if (path.extension() == ".png") {
         const GpuTexture& texture = find_texture(session, resource.empty() ? "out.display" : resource);
         bool encoded = resource.empty() || resource == "out.display";
-        write_png(path, to_display(read_layer(texture), encoded));
+        write_png(path, to_display(read_layer(texture, 0, 0, session.value_scale(resource)), encoded));
         return;
     }
     LayeredImage image;
@@ -141,7 +178,7 @@ void write_picture(const Session& session, const fs::path& path, const std::stri
         const TextureDesc& desc = texture.desc();
         default_layer = desc.size.z == 1 ? resource : resource + ".0";
         if (desc.size.z == 1)
-            image.layers[resource] = read_layer(texture);
+            image.layers[resource] = read_layer(texture, 0, 0, session.value_scale(resource));
         else {
             std::vector<float> all = texture.read(0);
             int channels = format_by_enum(desc.format).channels;
@@ -149,6 +186,7 @@ void write_picture(const Session& session, const fs::path& path, const std::stri
             for (int z = 0; z < desc.size.z; ++z) {
                 Image layer(desc.size.x, desc.size.y, channels);
                 std::copy_n(all.begin() + long(stride * size_t(z)), stride, layer.pixels.begin());
+                scale_light(layer, session.value_scale(resource));
                 image.layers[fmt::format("{}.{}", resource, z)] = std::move(layer);
             }
         }

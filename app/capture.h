@@ -12,8 +12,8 @@ namespace bounce {
 /// JSON: shot, graph, every parameter that is not at its default, camera, frame, size, renderer, commit.
 std::string picture_metadata(const Session& session, const std::string& resource);
 
-/// One 2D layer of a texture as floats.
-Image read_layer(const GpuTexture& texture, int mip = 0, int layer = 0);
+/// One 2D layer of a texture as floats, the first three channels times `scale` (Session::value_scale).
+Image read_layer(const GpuTexture& texture, int mip = 0, int layer = 0, float scale = 1);
 
 /// Every out.* part of the present picture but the display: three channels each, one for occlusion.
 LayeredImage read_parts(const Session& session);

@@ -47,7 +47,8 @@ class @_pass : public Pass {
     void declare(Declaration& d) override {
         d.uses("main");
         d.creates("@.result", ResourceKind::texture_2d, "rgba16f",
-                  {int(float(d.size.x) * scale_), int(float(d.size.y) * scale_)});
+                  {int(float(d.size.x) * scale_), int(float(d.size.y) * scale_)})
+            .radiance = true; // shown in W/(sr·m²); without this line, as stored
     }
 
     void execute(PassContext& c) override { c.dispatch("main", c.size("@.result")); }
@@ -98,7 +99,7 @@ std::string write_new_pass(const NewPass& request) {
     } else {
         entry["type"] = "compute";
         entry["shader"] = "user/" + name + ".comp";
-        json["resources"][name + ".result"] = {{"format", "rgba16f"}};
+        json["resources"][name + ".result"] = {{"format", "rgba16f"}, {"radiance", true}};
     }
     // Before the tone map, where the picture is complete and still linear.
     auto& passes = json["passes"];

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "scene/describe.h"
+#include "scene/pre_exposure.h"
 
 #include <fmt/format.h>
 
@@ -110,6 +111,11 @@ void Session::render(bool whole) {
     state_ = evaluate_shot(*shot_, frame_);
     if (scene_dirty_) {
         facts_ = shot_facts(*shot_);
+        const float wanted = pre_exposure(state_.scene, shot_->scene.materials, shot_->environment,
+                                          facts_.bounds_over_animation.diagonal());
+        // What is kept from earlier frames was stored with the old one.
+        if (wanted != gpu_scene_->pre_exposure()) graph_->reset_history();
+        gpu_scene_->set_pre_exposure(wanted);
         gpu_scene_->update_materials(shot_->scene.materials);
         if (rendered_frame_ >= 0) gpu_scene_->scene_edited(evaluate_shot(*shot_, rendered_frame_).scene);
         scene_dirty_ = false;
@@ -126,7 +132,8 @@ void Session::render(bool whole) {
     c.scene_min = facts_.bounds_over_animation.min;
     c.scene_max = facts_.bounds_over_animation.max;
     c.scene_diagonal = facts_.bounds_over_animation.diagonal();
-    c.environment_radiance = shot_->environment.radiance;
+    c.pre_exposure = gpu_scene_->pre_exposure();
+    c.environment_radiance = shot_->environment.radiance * c.pre_exposure;
     c.environment_map = shot_->environment.map.empty() ? 0 : 1;
     c.frame_index = frame_;
     c.light_count = int(gpu_scene_->light_list().size());
@@ -145,6 +152,11 @@ void Session::render(bool whole) {
     last_view_projection_ = c.view_projection;
     has_last_view_ = true;
     rendered_frame_ = frame_;
+}
+
+float Session::value_scale(const std::string& resource) const {
+    const PlanResource* known = graph_->plan().find_resource(resource);
+    return known && known->declaration.radiance ? 1 / constants_.pre_exposure : 1.0f;
 }
 
 void Session::set_parameter(const std::string& name, const std::string& text, ParameterOrigin origin) {

@@ -80,6 +80,9 @@ class Session {
     bool poll_files() { return graph_->poll_files(); }
     const SceneState& scene_state() const { return state_.scene; }
     const FrameConstants& constants() const { return constants_; }
+    /// What the first three channels of a texture are to be multiplied by to be what they mean: 1 ÷ pre-exposure for
+    /// light, 1 for everything else.
+    float value_scale(const std::string& resource) const;
 
     /// "id.parameter" from text; throws Error.
     void set_parameter(const std::string& name, const std::string& text, ParameterOrigin origin);

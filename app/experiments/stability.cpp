@@ -18,9 +18,10 @@ static std::vector<float> luminance_of(Session& session, const std::string& reso
     std::vector<float> values = texture->read();
     size_t pixels = size_t(texture->desc().size.x) * size_t(texture->desc().size.y), channels = values.size() / pixels;
     std::vector<float> luminance(pixels);
+    const float scale = session.value_scale(resource);
     for (size_t i = 0; i < pixels; ++i) {
         const float* v = &values[i * channels];
-        luminance[i] = channels >= 3 ? 0.2126f * v[0] + 0.7152f * v[1] + 0.0722f * v[2] : v[0];
+        luminance[i] = scale * (channels >= 3 ? 0.2126f * v[0] + 0.7152f * v[1] + 0.0722f * v[2] : v[0]);
     }
     return luminance;
 }

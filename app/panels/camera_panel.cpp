@@ -12,14 +12,23 @@ namespace bounce {
 
 namespace {
 
+/// A loaded place as numbers of the file's coordinates.
+bool drag_place(const char* label, glm::vec3& place, const LoadedSpace& space, float speed) {
+    glm::dvec3 file = space.to_file(place);
+    if (!ImGui::DragScalarN(label, ImGuiDataType_Double, &file.x, 3, speed, nullptr, nullptr, "%.3f")) return false;
+    place = space.to_loaded(file);
+    return true;
+}
+
 void draw_numbers(PanelContext& context) {
     Session& session = context.session;
     Camera camera = session.camera();
-    float diagonal = std::max(session.facts().bounds_over_animation.diagonal(), 1e-3f);
+    const LoadedSpace& space = session.shot().scene.space;
+    float speed = 0.001f * float(space.unit) * std::max(session.facts().bounds_over_animation.diagonal(), 1e-3f);
     ImGui::PushItemWidth(-ImGui::GetFontSize() * 4.5f);
-    bool changed = ImGui::DragFloat3("position", &camera.position.x, 0.001f * diagonal, 0, 0, "%.3f");
+    bool changed = drag_place("position", camera.position, space, speed);
     note_widget("camera.position");
-    changed = ImGui::DragFloat3("target", &camera.target.x, 0.001f * diagonal, 0, 0, "%.3f") || changed;
+    changed = drag_place("target", camera.target, space, speed) || changed;
     changed = ImGui::DragFloat3("up", &camera.up.x, 0.005f, -1, 1, "%.3f") || changed;
     float degrees = glm::degrees(camera.vfov);
     if (ImGui::SliderFloat("field", &degrees, 5, 120, "%.1f°", ImGuiSliderFlags_AlwaysClamp)) {
@@ -49,7 +58,7 @@ void draw_numbers(PanelContext& context) {
     help("F does the same.");
     ImGui::SameLine();
     if (ImGui::Button("copy")) {
-        ImGui::SetClipboardText(camera_json(session.camera()).c_str());
+        ImGui::SetClipboardText(camera_json(session.camera(), session.shot().scene.space).c_str());
         context.ui.say("the camera is on the clipboard, as a shot file holds it");
     }
     help("As JSON, for a shot file.");

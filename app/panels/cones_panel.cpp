@@ -90,7 +90,8 @@ bool begin_table(const char* name, std::initializer_list<const char*> columns, f
     return true;
 }
 
-void draw_cones(ConesState& state, float height) {
+/// `scale`: 1 ÷ pre-exposure, as for all light that is read from the GPU.
+void draw_cones(ConesState& state, float height, float scale) {
     if (!begin_table("cones", {"cone", "weight", "occlusion", "radiance", "spheres", "length (m)", "direction"},
                      height))
         return;
@@ -103,7 +104,7 @@ void draw_cones(ConesState& state, float height) {
         note_widget(fmt::format("cones.cone.{}", i));
         cell(fmt::format("{:.4f}", cone.weight));
         cell(fmt::format("{:.3f}", cone.occlusion));
-        cell(colour_text(cone.radiance));
+        cell(colour_text(cone.radiance * scale));
         cell(cone.kept == cone.spheres ? fmt::format("{}", cone.spheres)
                                        : fmt::format("{} of {}", cone.kept, cone.spheres));
         cell(fmt::format("{:.3f}", cone.end));
@@ -112,7 +113,7 @@ void draw_cones(ConesState& state, float height) {
     ImGui::EndTable();
 }
 
-void draw_spheres(const ConesState& state, float height) {
+void draw_spheres(const ConesState& state, const LoadedSpace& space, float height, float scale) {
     if (!begin_table("spheres",
                      {"t (m)", "diameter", "occlusion", "share", "voxel mip", "map mip", "layers", "radiance"}, height))
         return;
@@ -124,7 +125,8 @@ void draw_spheres(const ConesState& state, float height) {
         ImGui::TableNextRow();
         cell(fmt::format("{:.4f}", sphere.t), colour);
         if (i == 0) note_widget("cones.sphere.0");
-        show_tooltip(fmt::format("at {:.4f}, {:.4f}, {:.4f}{}", sphere.centre.x, sphere.centre.y, sphere.centre.z,
+        const glm::dvec3 at = space.to_file(sphere.centre);
+        show_tooltip(fmt::format("at {:.4f}, {:.4f}, {:.4f}{}", at.x, at.y, at.z,
                                  sphere.at_hit ? "\nthe lookup where the cone is blocked" : ""));
         cell(fmt::format("{:.4f}", sphere.diameter), colour);
         cell(fmt::format("{:.3f}", sphere.alpha), colour);
@@ -132,7 +134,7 @@ void draw_spheres(const ConesState& state, float height) {
         cell(fmt::format("{:.2f}", sphere.voxel_level), colour);
         cell(sphere.layers ? fmt::format("{:.2f}", sphere.map_level) : "", colour);
         cell(sphere.layers ? fmt::format("{}", sphere.layers) : "", colour);
-        cell(sphere.radiance == glm::vec3(0) ? "" : colour_text(sphere.radiance), colour);
+        cell(sphere.radiance == glm::vec3(0) ? "" : colour_text(sphere.radiance * scale), colour);
     }
     ImGui::EndTable();
 }
@@ -162,17 +164,19 @@ void draw_cones_panel(PanelContext& context) {
     }
     state.chosen = std::clamp(state.chosen, 0, std::min(at.cones, k_most_recorded_cones) - 1);
     show_text(fmt::format("pixel {}, {}", at.pixel.x, at.pixel.y), k_dim_colour);
-    show_text(fmt::format("E/π {}   occlusion {:.3f}", colour_text(glm::vec3(at.summed)), 1 - at.summed.w),
+    const float scale = 1 / context.session.constants().pre_exposure;
+    show_text(fmt::format("E/π {}   occlusion {:.3f}", colour_text(glm::vec3(at.summed) * scale), 1 - at.summed.w),
               k_accent_colour);
     show_tooltip(
-        fmt::format("The sum of the cones below.\nThe gather stored {}.", colour_text(glm::vec3(at.gathered))));
+        fmt::format("The sum of the cones below.\nThe gather stored {}.", colour_text(glm::vec3(at.gathered) * scale)));
     float height = ImGui::GetContentRegionAvail().y - 2 * ImGui::GetFrameHeightWithSpacing();
-    draw_cones(state, std::max(0.4f * height, 5 * ImGui::GetTextLineHeightWithSpacing()));
+    draw_cones(state, std::max(0.4f * height, 5 * ImGui::GetTextLineHeightWithSpacing()), scale);
     show_text(fmt::format("spheres of cone {}", state.chosen));
     ImGui::SameLine();
     ImGui::Checkbox("only with occlusion", &state.only_hits);
     note_widget("cones.only_hits");
-    draw_spheres(state, std::max(0.6f * height, 5 * ImGui::GetTextLineHeightWithSpacing()));
+    draw_spheres(state, context.session.shot().scene.space,
+                 std::max(0.6f * height, 5 * ImGui::GetTextLineHeightWithSpacing()), scale);
 }
 
 } // namespace bounce

@@ -74,7 +74,7 @@ void draw_shown(PanelContext& context) {
     ImGui::SameLine();
     show_text(place, k_dim_colour);
     if (!begin_values("shown")) return;
-    Texel texel = read_texel(*texture, shown.mip, {at, shown.layer});
+    Texel texel = read_texel(*texture, shown.mip, {at, shown.layer}, context.session.value_scale(shown.resource));
     static constexpr const char* k_channels[] = {"R", "G", "B", "A"};
     for (int c = 0; c < texel.channels; ++c) {
         Texel one{1, texel.integer, texel.digits, {texel.real[size_t(c)]}, {texel.whole[size_t(c)]}};
@@ -83,7 +83,7 @@ void draw_shown(PanelContext& context) {
     ImGui::EndTable();
 }
 
-std::string position_text(const glm::vec3& p) {
+std::string position_text(const glm::dvec3& p) {
     return fmt::format("{:.4f}, {:.4f}, {:.4f}", p.x, p.y, p.z);
 }
 
@@ -92,11 +92,12 @@ void draw_world(PanelContext& context, glm::ivec2 pixel) {
     const GpuTexture* depth = session.graph().texture("gbuffer.depth");
     if (!depth || !begin_values("world")) return;
     const FrameConstants& constants = session.constants();
+    const LoadedSpace& space = session.shot().scene.space;
     float stored = read_texel(*depth, 0, {pixel, 0}).real[0];
     if (auto position = world_position(constants, pixel, stored)) {
         ImVec4 colour = ImGui::GetStyleColorVec4(ImGuiCol_Text);
-        draw_value(context.ui, "position (m)", position_text(*position), colour);
-        float distance = glm::distance(*position, constants.camera_position);
+        draw_value(context.ui, "position (m)", position_text(space.to_file(*position)), colour);
+        double distance = space.unit * glm::distance(*position, constants.camera_position);
         draw_value(context.ui, "distance (m)", fmt::format("{:.4f}", distance), colour);
     } else {
         draw_value(context.ui, "position (m)", "background", k_dim_colour);
@@ -111,7 +112,10 @@ void draw_picture_textures(PanelContext& context, glm::ivec2 pixel) {
         bool fits = !resource.is_buffer() && resource.texture.kind == TextureKind::texture_2d &&
                     glm::ivec2(resource.texture.size) == graph.plan().size;
         const GpuTexture* texture = fits ? graph.texture(resource.name()) : nullptr;
-        if (texture) draw_texel(context.ui, resource.name(), read_texel(*texture, 0, {pixel, 0}));
+        if (texture) {
+            float scale = context.session.value_scale(resource.name());
+            draw_texel(context.ui, resource.name(), read_texel(*texture, 0, {pixel, 0}, scale));
+        }
     }
     ImGui::EndTable();
 }

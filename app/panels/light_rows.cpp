@@ -22,9 +22,10 @@ int node_of_light(const Scene& scene, size_t light) {
     return -1;
 }
 
-/// Where a light is and which way it shines, in the world.
+/// Where a light is and which way it shines, in the file's coordinates.
 struct Place {
-    glm::vec3 position{0}, direction{0, -1, 0};
+    glm::dvec3 position{0};
+    glm::vec3 direction{0, -1, 0};
 };
 
 /// What is not zero by rounding alone would be shown as -0.000.
@@ -35,26 +36,26 @@ glm::vec3 clean(glm::vec3 v) {
     return v;
 }
 
-Place place_of(const glm::mat4& world) {
-    return {glm::vec3(world[3]), clean(-glm::normalize(glm::vec3(world[2])))};
+Place place_of(const glm::dmat4& world) {
+    return {glm::dvec3(world[3]), clean(glm::vec3(-glm::normalize(glm::dvec3(world[2]))))};
 }
 
 /// Moves the node so that its light is there. The parent stays.
 void put(Scene& scene, int index, const Place& place, float time) {
     Node& node = scene.nodes[size_t(index)];
-    glm::mat4 parent(1);
-    if (node.parent >= 0) parent = world_matrices(scene, time)[size_t(node.parent)];
-    glm::mat4 inverse = glm::inverse(parent);
-    node.translation = glm::vec3(inverse * glm::vec4(place.position, 1));
-    node.rotation = look_rotation(glm::mat3(inverse) * place.direction, true);
+    glm::dmat4 parent(1);
+    if (node.parent >= 0) parent = file_matrices(scene, time)[size_t(node.parent)];
+    glm::dmat4 inverse = glm::inverse(parent);
+    node.translation = glm::dvec3(inverse * glm::dvec4(place.position, 1));
+    node.rotation = look_rotation(glm::dmat3(inverse) * glm::dvec3(place.direction), true);
     // A light shines the same at any scale.
-    node.scale = glm::vec3(1);
+    node.scale = glm::dvec3(1);
     node.has_matrix = false;
 }
 
 class LightRow {
   public:
-    LightRow(PanelContext& context, size_t index, const std::vector<glm::mat4>& worlds)
+    LightRow(PanelContext& context, size_t index, const std::vector<glm::dmat4>& worlds)
         : context_(context), index_(index), light_(context.session.shot().scene.lights[index]),
           node_(node_of_light(context.session.shot().scene, index)) {
         name_ = light_.name.empty() ? fmt::format("light {}", index + 1) : light_.name;
@@ -155,9 +156,11 @@ class LightRow {
         ImGui::BeginDisabled(driven);
         Place after = place_;
         bool changed = false;
-        float diagonal = std::max(context_.session.facts().bounds.diagonal(), 1e-3f);
+        float diagonal = std::max(context_.session.facts().bounds.diagonal(), 1e-3f) *
+                         float(context_.session.shot().scene.space.unit);
         if (light_.type != LightType::directional) {
-            changed = ImGui::DragFloat3("position", &after.position.x, 0.002f * diagonal, 0, 0, "%.3f");
+            changed = ImGui::DragScalarN("position", ImGuiDataType_Double, &after.position.x, 3, 0.002f * diagonal,
+                                         nullptr, nullptr, "%.3f");
             note_widget(fmt::format("light.{}.position", index_));
         }
         if (light_.type != LightType::point) {
@@ -201,7 +204,7 @@ void draw_light_rows(PanelContext& context) {
         ImGui::TextColored(k_dim_colour, "no point, spot or directional light");
         return;
     }
-    std::vector<glm::mat4> worlds = world_matrices(scene, context.session.time());
+    std::vector<glm::dmat4> worlds = file_matrices(scene, context.session.time());
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         ImGui::PushID(int(i));
         LightRow(context, i, worlds).draw();

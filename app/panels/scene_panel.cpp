@@ -68,7 +68,7 @@ void draw_facts(const Session& session) {
         fact("moving", "%zu draws%s, %.3g s", facts.dynamic_instances, facts.animated_lights ? " and lights" : "",
              double(facts.animation_duration));
     }
-    glm::vec3 size = facts.bounds.size();
+    glm::vec3 size = facts.bounds.size() * float(session.shot().scene.space.unit);
     fact("size", "%.3g × %.3g × %.3g m", double(size.x), double(size.y), double(size.z));
     if (std::string strays = describe_strays(facts); !strays.empty()) show_wrapped(strays, k_warning_colour);
 }

@@ -20,10 +20,11 @@ static bool models_everything(const LiveComparison& comparison, const Session& s
 std::string LiveComparison::key_of(const Session& session) const {
     const Transport& transport = session.graph().model().file().transport;
     const ReferenceSettings settings = transport_settings(session.graph().model());
-    return fmt::format(
-        "{} {} {} {}x{} {} {} {} {} {}", session.options().shot, session.edits(), camera_json(session.camera()),
-        session.size().x, session.size().y, session.frame(), models_everything(*this, session) ? -1 : transport.bounces,
-        !full_transport && transport.diffuse_only, settings.occlusion_distance, int(settings.occlusion_falloff));
+    return fmt::format("{} {} {} {}x{} {} {} {} {} {}", session.options().shot, session.edits(),
+                       camera_json(session.camera(), session.shot().scene.space), session.size().x, session.size().y,
+                       session.frame(), models_everything(*this, session) ? -1 : transport.bounces,
+                       !full_transport && transport.diffuse_only, settings.occlusion_distance,
+                       int(settings.occlusion_falloff));
 }
 
 bool LiveComparison::stale(const Session& session) const {

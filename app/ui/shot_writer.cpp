@@ -26,6 +26,14 @@ json vector(const glm::vec3& v) {
     return {number(v.x), number(v.y), number(v.z)};
 }
 
+/// A place in the file's coordinates: as a float where that tells it all.
+json place(const glm::dvec3& v) {
+    auto coordinate = [](double value) {
+        return double(float(value)) == value ? number(float(value)) : json::parse(fmt::format("{}", value));
+    };
+    return {coordinate(v.x), coordinate(v.y), coordinate(v.z)};
+}
+
 bool same_light(const Light& a, const Light& b) {
     return a.intensity == b.intensity && a.inner_cone == b.inner_cone && a.outer_cone == b.outer_cone &&
            a.radius == b.radius && a.angular_radius == b.angular_radius && a.enabled == b.enabled;
@@ -54,20 +62,20 @@ bool lights_edited(const Scene& scene, const SceneBaseline& opened) {
 json path_json(const Path& path) {
     json keys = json::array();
     for (const PathKey& key : path.keys) {
-        json out{{"t", number(key.t)}, {"position", vector(key.position)}};
-        if (key.has_target) out["target"] = vector(key.target);
+        json out{{"t", number(key.t)}, {"position", place(key.position)}};
+        if (key.has_target) out["target"] = place(key.target);
         keys.push_back(out);
     }
     return keys;
 }
 
-json light_json(const Light& light, const Node* node, const glm::mat4& world) {
+json light_json(const Light& light, const Node* node, const glm::dmat4& world) {
     static const char* const types[] = {"point", "spot", "directional"};
     json out;
     if (!light.name.empty()) out["name"] = light.name;
     out["type"] = types[size_t(light.type)];
-    if (light.type != LightType::directional) out["position"] = vector(glm::vec3(world[3]));
-    if (light.type != LightType::point) out["direction"] = vector(-glm::normalize(glm::vec3(world[2])));
+    if (light.type != LightType::directional) out["position"] = place(glm::dvec3(world[3]));
+    if (light.type != LightType::point) out["direction"] = vector(glm::vec3(-glm::normalize(glm::dvec3(world[2]))));
     out["intensity"] = vector(light.intensity);
     if (light.type == LightType::spot) {
         out["inner_cone_deg"] = number(glm::degrees(light.inner_cone));
@@ -82,7 +90,7 @@ json light_json(const Light& light, const Node* node, const glm::mat4& world) {
 
 json lights_json(const Session& session) {
     const Scene& scene = session.shot().scene;
-    std::vector<glm::mat4> worlds = world_matrices(scene, session.time());
+    std::vector<glm::dmat4> worlds = file_matrices(scene, session.time());
     json lights = json::array();
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         const Node* node = node_of(scene, int(i));
@@ -147,7 +155,7 @@ std::string shot_text(const Session& session, const SceneBaseline& opened, const
     root["time"] = number(session.time());
     root["fps"] = number(shot.fps);
     if (session.camera_is_set() || !root.contains("camera_path")) {
-        root["camera"] = json::parse(camera_json(session.camera()));
+        root["camera"] = json::parse(camera_json(session.camera(), shot.scene.space));
         root.erase("camera_path");
     }
     // A default light of a plain scene is no part of its file.

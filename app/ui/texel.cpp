@@ -13,7 +13,7 @@ static int digits_of(const Format& format) {
     return format.bytes / format.channels == 2 ? 5 : 0;
 }
 
-Texel read_texel(const GpuTexture& texture, int mip, glm::ivec3 at) {
+Texel read_texel(const GpuTexture& texture, int mip, glm::ivec3 at, float scale) {
     const Format& format = format_by_enum(texture.desc().format);
     at = glm::clamp(at, glm::ivec3(0), mip_size(texture.desc(), mip) - 1);
     Texel texel;
@@ -35,6 +35,8 @@ Texel read_texel(const GpuTexture& texture, int mip, glm::ivec3 at) {
         std::copy(values.begin(), values.end(), texel.whole.begin());
     } else {
         read(GL_FLOAT, texel.real);
+        for (size_t c = 0; c < 3; ++c)
+            texel.real[c] *= scale;
     }
     return texel;
 }

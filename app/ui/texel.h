@@ -19,8 +19,9 @@ struct Texel {
     std::array<int64_t, 4> whole{};
 };
 
-/// Reads back one texel and nothing more (x, y, layer or slice), clamped to the mip's size. Stalls.
-Texel read_texel(const GpuTexture& texture, int mip, glm::ivec3 at);
+/// Reads back one texel and nothing more (x, y, layer or slice), clamped to the mip's size; the first three channels of
+/// floats are multiplied by `scale` (Session::value_scale). Stalls.
+Texel read_texel(const GpuTexture& texture, int mip, glm::ivec3 at, float scale = 1);
 
 /// "0.25, 1, 0.1": decimals short enough to read and long enough to tell any two values of the format apart; "nan",
 /// "inf".

@@ -83,7 +83,7 @@ const char* sampler_suffix(TextureKind kind) {
     return "";
 }
 
-void set_constant(const Program& program, const char* name, int value) {
+void set_constant(const Program& program, const char* name, const ParameterValue& value) {
     for (const UniformInfo& uniform : program.interface().uniforms) {
         if (uniform.name == name) set_uniform(program.id(), uniform, value);
     }
@@ -123,6 +123,7 @@ void TextureView::bind_source(const Program& program, const GpuTexture& source, 
     set_constant(program, "layer", settings.layer);
     set_constant(program, "channel", settings.channel);
     set_constant(program, "channels", format_by_enum(source.desc().format).channels);
+    set_constant(program, "value_scale", scale_);
 }
 
 void TextureView::find_range(const GpuTexture& source, const ViewerSettings& settings) {
@@ -136,7 +137,8 @@ void TextureView::find_range(const GpuTexture& source, const ViewerSettings& set
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-const GpuTexture& TextureView::draw(const GpuTexture& source, const ViewerSettings& wanted) {
+const GpuTexture& TextureView::draw(const GpuTexture& source, const ViewerSettings& wanted, float scale) {
+    scale_ = scale;
     ViewerSettings settings = clamp_view(wanted, source.desc());
     glm::ivec3 size = mip_size(source.desc(), settings.mip);
     TextureDesc desc{TextureKind::texture_2d, GL_RGBA8, {size.x, size.y, 1}, 1};
@@ -148,9 +150,9 @@ const GpuTexture& TextureView::draw(const GpuTexture& source, const ViewerSettin
     find_range(source, settings);
     const Program& viewer = program("app/texture_view.comp", source.desc());
     bind_source(viewer, source, settings);
-    set_constant(viewer, "logarithmic", settings.logarithmic);
-    set_constant(viewer, "encode_srgb", settings.encode_srgb);
-    set_constant(viewer, "mark_non_finite", settings.mark_non_finite);
+    set_constant(viewer, "logarithmic", int(settings.logarithmic));
+    set_constant(viewer, "encode_srgb", int(settings.encode_srgb));
+    set_constant(viewer, "mark_non_finite", int(settings.mark_non_finite));
     glBindImageTexture(0, picture_.id(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA8);
     dispatch(viewer, size);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);

@@ -31,7 +31,8 @@ class TextureView {
 
     /// Draws `source` into an rgba8 picture of the mip's size, magnified without interpolation, row 0 first. Valid
     /// until the next call; mip and layer are clamped. Throws Error when a shader of ours does not compile.
-    const GpuTexture& draw(const GpuTexture& source, const ViewerSettings& settings);
+    /// The first three channels are multiplied by `scale` first (Session::value_scale).
+    const GpuTexture& draw(const GpuTexture& source, const ViewerSettings& settings, float scale = 1);
     const GpuTexture& picture() const { return picture_; }
 
     /// The values that were black and white in the last picture (those found, with an automatic range). Stalls.
@@ -48,6 +49,7 @@ class TextureView {
     Sampler sampler_;
     Buffer range_;
     GpuTexture picture_;
+    float scale_ = 1;
 };
 
 } // namespace bounce

@@ -47,7 +47,7 @@ const GpuTexture* Viewport::texture_to_show(PanelContext& context) {
     drawn_texture_ = source->id();
     try {
         if (!view_) view_ = std::make_unique<TextureView>();
-        view_->draw(*source, settings);
+        view_->draw(*source, settings, context.session.value_scale(settings.resource));
         failure_.clear();
         return &view_->picture();
     } catch (const std::exception& problem) {

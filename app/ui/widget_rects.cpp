@@ -46,7 +46,7 @@ void end_widget_frame(const PanelContext& context) {
     json["shot"] = session.options().shot;
     json["graph"] = session.options().graph;
     json["size"] = {session.size().x, session.size().y};
-    json["camera"] = nlohmann::json::parse(camera_json(session.camera()));
+    json["camera"] = nlohmann::json::parse(camera_json(session.camera(), session.shot().scene.space));
     json["cursor"] = {context.ui.cursor_pixel.x, context.ui.cursor_pixel.y};
     json["notice"] = context.ui.notice;
     json["notice_is_error"] = context.ui.notice_is_error;

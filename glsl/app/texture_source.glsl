@@ -12,13 +12,15 @@ uniform int mip;
 uniform int layer;    // layer of an array, slice of a 3D texture
 uniform int channel;  // 0 = RGB, 1 … 4 = one of R G B A, 5 = length of RGB
 uniform int channels; // of the format
+uniform float value_scale; // of the first three channels: light is stored pre-exposed
 
 vec4 fetch_texel(ivec2 at) {
 #ifdef TEXTURE_FLAT
-    return vec4(texelFetch(viewed_texture, at, mip));
+    vec4 value = vec4(texelFetch(viewed_texture, at, mip));
 #else
-    return vec4(texelFetch(viewed_texture, ivec3(at, layer), mip));
+    vec4 value = vec4(texelFetch(viewed_texture, ivec3(at, layer), mip));
 #endif
+    return value * vec4(vec3(value_scale), 1.0);
 }
 
 ivec2 viewed_size() {

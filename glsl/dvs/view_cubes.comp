@@ -52,11 +52,11 @@ vec3 cube_colour(ivec3 voxel) {
     int behind = textureSize(dvs_base, 0).x;
     if (quantity == 0) return texelFetch(voxels_albedo, voxel, 0).rgb;
     if (quantity == 1) return 0.5 * texelFetch(voxels_normal, voxel, 0).xyz + 0.5;
-    if (quantity == 2) return exposure * texelFetch(voxels_emission, voxel, 0).rgb;
-    if (quantity == 3) return exposure * texelFetch(dvs_base, voxel, 0).rgb;
+    if (quantity == 2) return exposure / pre_exposure * texelFetch(voxels_emission, voxel, 0).rgb;
+    if (quantity == 3) return exposure / pre_exposure * texelFetch(dvs_base, voxel, 0).rgb;
     if (quantity == 4)
-        return textureSize(dvs_base, 0).z > behind ? exposure * texelFetch(dvs_base, voxel + ivec3(0, 0, behind), 0).rgb : vec3(0.0);
-    if (is_directional()) return exposure * directional(voxel).rgb;
+        return textureSize(dvs_base, 0).z > behind ? exposure / pre_exposure * texelFetch(dvs_base, voxel + ivec3(0, 0, behind), 0).rgb : vec3(0.0);
+    if (is_directional()) return exposure / pre_exposure * directional(voxel).rgb;
     if (quantity == 11) return (texelFetch(voxels_flags, voxel, 0).r & 2u) != 0u ? vec3(0.95, 0.5, 0.1) : vec3(0.25, 0.4, 0.8);
     return heat_colour(log2(max(fragments_of(voxel), 1.0)) / 8.0);
 }

@@ -22,13 +22,14 @@ uniform int frame_index;
 uniform vec3 scene_min; // bounds over the whole animation, without strays (passes/scene/extent.h)
 uniform vec3 scene_max;
 uniform float scene_diagonal;
-uniform vec3 environment_radiance; // W/(sr·m²)
+uniform vec3 environment_radiance; // W/(sr·m²), times pre_exposure
 uniform int environment_map;       // 1: multiply by the map
 uniform int light_count;
 uniform int diffuse_only; // every material is Lambert with rho = base_colour·(1 − metallic)
 uniform int shadow_view_count;
 uniform int normal_maps;
 uniform int material_model; // 0 plain, 1 gltf, 2 appendix_b: lib/material_model.glsl
+uniform float pre_exposure; // all light is multiplied by this power of two; what is shown is divided by it
 
 // The direction through a pixel's centre, with a forward component of 1 (so that distance along the view is a factor).
 vec3 pixel_ray(vec2 pixel) {

@@ -1,6 +1,8 @@
 // The stored layers as a mosaic: a row a layer of the pool, a column a mip, each tile magnified or thinned to the same
 // size without filtering. Attributes are divided by the opacity that they are stored with. Texels that hold nothing are
 // dark grey; a tile that holds nothing at all is crossed out in red, a place of the pool that holds no layer is hatched.
+#include "lib/frame.glsl"
+
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform sampler2DArray lrsm_radiance;
@@ -18,7 +20,7 @@ vec3 attribute_at(ivec3 at, int mip) {
     vec4 depth = texelFetch(lrsm_depth, at, mip);
     if (normal.a <= 0.0) return vec3(0.03);
     float mean = depth.r / max(depth.b, 1.0e-6);
-    if (quantity == 0) return gain * texelFetch(lrsm_radiance, at, mip).rgb / normal.a;
+    if (quantity == 0) return gain / pre_exposure * texelFetch(lrsm_radiance, at, mip).rgb / normal.a;
     if (quantity == 1) return gain * (0.5 + 0.5 * normal.xyz / normal.a);
     if (quantity == 2) return vec3(gain * mean);
     if (quantity == 3) return vec3(gain * normal.a);

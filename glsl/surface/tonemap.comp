@@ -1,4 +1,6 @@
 // Linear radiance → display: exposure, a tone curve, the sRGB encoding.
+#include "lib/frame.glsl"
+
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform sampler2D out_radiance;
@@ -19,7 +21,7 @@ vec3 srgb_encode(vec3 linear) {
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(out_display)))) return;
-    vec3 x = texelFetch(out_radiance, pixel, 0).rgb * exp2(exposure);
+    vec3 x = texelFetch(out_radiance, pixel, 0).rgb * (exp2(exposure) / pre_exposure);
     if (curve == 1) x = aces_like(x);
     imageStore(out_display, pixel, vec4(srgb_encode(clamp(x, 0.0, 1.0)), 1.0));
 }

@@ -51,6 +51,7 @@ class VoxelFilterPass : public Pass {
         std::string tile = directional_leaves_ ? "voxels.albedo.width" : "max(1, voxels.albedo.width / 2)";
         ResourceDeclaration& directional =
             d.creates("dvs.directional", ResourceKind::texture_3d, "rgba16f", {"2 * " + tile, "3 * " + tile, tile});
+        directional.radiance = true;
         directional.mips = "rint(log2(" + tile + ")) + 1";
         filter_.declare(d);
     }

@@ -7,9 +7,11 @@ namespace bounce {
 /// A radiance volume; behind the front sides' the back sides' when there are two. Over the list, only occupied voxels
 /// are written.
 static void create_radiance(Declaration& d, const std::string& name, const std::string& sides, bool occupied_only) {
-    d.creates(name, ResourceKind::texture_3d, "rgba16f",
-              {"voxels.albedo.width", "voxels.albedo.width", "voxels.albedo.width * " + sides})
-        .overwritten = !occupied_only;
+    ResourceDeclaration& volume =
+        d.creates(name, ResourceKind::texture_3d, "rgba16f",
+                  {"voxels.albedo.width", "voxels.albedo.width", "voxels.albedo.width * " + sides});
+    volume.overwritten = !occupied_only;
+    volume.radiance = true;
 }
 
 /// Over the list of occupied voxels, or over all.

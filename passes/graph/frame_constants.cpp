@@ -80,6 +80,7 @@ const std::vector<FrameConstant>& frame_constants() {
         constant("normal_maps", &C::normal_maps),
         constant("material_model", &C::material_model),
         constant("shadow_view_count", &C::shadow_view_count),
+        constant("pre_exposure", &C::pre_exposure),
     };
     return table;
 }

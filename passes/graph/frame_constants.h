@@ -39,6 +39,8 @@ struct FrameConstants {
     int shadow_view_count = 0;
     int normal_maps = 1;
     int material_model = 0; ///< MaterialModel; glsl/lib/material_model.glsl
+    /// What lights, emission and environment are multiplied by on the GPU, and so all radiance there: a power of two.
+    float pre_exposure = 1;
 };
 
 /// One camera's part: matrices, basis, near plane. The plane is the camera's own, or else nearer than anything that

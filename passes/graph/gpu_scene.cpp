@@ -84,13 +84,15 @@ GpuTextureUse GpuScene::use_of(const TextureSlot& slot) const {
 
 void GpuScene::update_materials(const std::vector<Material>& materials) {
     material_list_ = materials;
+    for (Material& material : material_list_)
+        material.emission *= pre_exposure_;
     std::vector<GpuMaterial> packed;
     slots_.clear();
     auto bound = [&](const TextureSlot& slot, const GpuTexture& fallback) -> Bound {
         if (slot.texture < 0) return {fallback.id(), 0};
         return {views_[size_t(slot.texture)].id(), view_samplers_[size_t(slot.texture)]};
     };
-    for (const Material& m : materials) {
+    for (const Material& m : material_list_) {
         GpuMaterial out;
         out.base_colour = m.base_colour;
         out.emission = m.emission;
@@ -136,7 +138,7 @@ static std::vector<GpuDraw> pack_draws(const SceneState& state) {
     return draws;
 }
 
-static std::vector<GpuLight> pack_lights(const SceneState& state) {
+static std::vector<GpuLight> pack_lights(const SceneState& state, float pre_exposure) {
     std::vector<GpuLight> lights;
     int shadow_base = 0;
     for (const Light& light : state.lights) {
@@ -145,7 +147,7 @@ static std::vector<GpuLight> pack_lights(const SceneState& state) {
         out.type = uint32_t(light.type);
         out.direction = light.direction;
         out.inner_cone_cos = std::cos(light.inner_cone);
-        out.intensity = light.intensity;
+        out.intensity = light.intensity * pre_exposure;
         out.outer_cone_cos = std::cos(light.outer_cone);
         out.radius = light.radius;
         out.angular_radius = light.angular_radius;
@@ -170,7 +172,7 @@ static uint64_t digest_of_lights(const std::vector<GpuLight>& lights) {
 
 void GpuScene::update(const SceneState& state, bool moving_lights) {
     draw_list_ = pack_draws(state);
-    light_list_ = pack_lights(state);
+    light_list_ = pack_lights(state, pre_exposure_);
     shadow_view_count_ = 0;
     for (const GpuLight& light : light_list_)
         shadow_view_count_ += light.shadow_count;
@@ -195,7 +197,7 @@ void GpuScene::update(const SceneState& state, bool moving_lights) {
 
 void GpuScene::scene_edited(const SceneState& state) {
     draw_edits_ += digest_of_draws(pack_draws(state), true) != digest_of_draws(draw_list_, true);
-    light_edits_ += digest_of_lights(pack_lights(state)) != digest_of_lights(light_list_);
+    light_edits_ += digest_of_lights(pack_lights(state, pre_exposure_)) != digest_of_lights(light_list_);
 }
 
 uint64_t GpuScene::geometry_bytes() const {

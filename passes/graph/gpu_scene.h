@@ -68,6 +68,9 @@ class GpuScene {
     /// After an edit: what the last update() would have been given with the scene as it is now. Differences of what
     /// moves by itself count as edits.
     void scene_edited(const SceneState& state);
+    /// What emission and lights are multiplied by from the next updates on (scene/pre_exposure.h).
+    void set_pre_exposure(float pre_exposure) { pre_exposure_ = pre_exposure; }
+    float pre_exposure() const { return pre_exposure_; }
     /// Materials as edited in a panel.
     void update_materials(const std::vector<Material>& materials);
 
@@ -86,6 +89,7 @@ class GpuScene {
 
     const std::vector<GpuDraw>& draw_list() const { return draw_list_; }
     const std::vector<GpuLight>& light_list() const { return light_list_; }
+    /// Emission is pre-exposed in it, as on the GPU.
     const std::vector<Material>& material_list() const { return material_list_; }
     int shadow_view_count() const { return shadow_view_count_; }
     GLuint vertex_array() const { return vertex_array_.id(); }
@@ -128,6 +132,7 @@ class GpuScene {
     int shadow_view_count_ = 0;
     std::array<Revision, k_scene_parts> revisions_;
     uint64_t draw_edits_ = 0, light_edits_ = 0; ///< of what moves by itself
+    float pre_exposure_ = 1;
 };
 
 } // namespace bounce

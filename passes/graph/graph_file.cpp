@@ -170,6 +170,7 @@ ResourceDeclaration read_resource(const std::string& name, const json& value, st
     resource.count = reader.expression("count", "0");
     resource.persistent = reader.flag("persistent", false);
     resource.overwritten = !reader.flag("clear", true);
+    resource.radiance = reader.flag("radiance", holds_radiance(resource.name));
     if (const json* stride = reader.get("stride")) {
         if (stride->is_number_integer() && stride->get<int>() > 0)
             resource.stride = stride->get<int>();

@@ -7,7 +7,8 @@
 //     "parameters": { "scale": {"default": 0.5, "range": [0.1, 1], "unit": "", "help": "…"} },
 //     "resources":  { "blur.half": {"kind": "texture_2d", "format": "rgba16f", "size": ["width*graph.scale",
 //     "height*graph.scale"],
-//                                   "mips": 1, "persistent": false, "clear": true, "neutral": [0,0,0,0]},
+//                                   "mips": 1, "persistent": false, "clear": true, "radiance": false, "neutral":
+//                                   [0,0,0,0]},
 //                     "list.nodes": {"kind": "buffer", "count": "width*height*8", "stride": 16} },
 //     "passes": [ { "id": "blur", "type": "compute", "shader": "blur.comp", "params": {"radius": 3},
 //                   "bind": {"blur.source": "out.direct", "blur.target": {"resource": "blur.half", "mip":

@@ -11,6 +11,7 @@ ResourceDeclaration& Declaration::creates(const std::string& name, ResourceKind 
     resource.kind = kind;
     resource.format = format;
     resource.size = std::move(extent);
+    resource.radiance = holds_radiance(name);
     resources_.push_back(std::move(resource));
     return resources_.back();
 }

@@ -156,6 +156,7 @@ class Planner {
             if (given("stride")) merged.stride = known->stride;
             if (given("persistent")) merged.persistent = known->persistent;
             if (given("clear")) merged.overwritten = known->overwritten;
+            if (given("radiance")) merged.radiance = known->radiance;
             if (given("neutral")) merged.neutral = known->neutral;
             *known = merged;
         } else if (!rebound && known->declared_by != node.id()) {

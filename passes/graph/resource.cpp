@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
+#include <string_view>
 
 namespace bounce {
 
@@ -25,6 +27,13 @@ const char* to_string(ResourceKind kind) {
 Extent Extent::relative_to(const std::string& resource, double scale) {
     auto part = [&](const char* side) { return fmt::format("max(1, ceil({}.{} * {}))", resource, side, scale); };
     return {part("width"), part("height"), resource + ".depth"};
+}
+
+bool holds_radiance(const std::string& name) {
+    static const std::set<std::string_view> parts{"out.direct",           "out.emitted",           "out.environment",
+                                                  "out.indirect_diffuse", "out.indirect_specular", "out.emission"};
+    return parts.contains(name) || name.ends_with(".radiance") || name.ends_with(".irradiance") ||
+           name.ends_with(".emission");
 }
 
 void check_resource_name(const std::string& name) {

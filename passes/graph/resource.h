@@ -38,9 +38,16 @@ struct ResourceDeclaration {
     /// earlier frames only saves work. It is reset when anything but the passing of frames changes it.
     bool incremental = false;
     bool overwritten = false; ///< every element is written each frame, so it need not be cleared first
-    glm::vec4 neutral{0};     ///< what consumers read when its pass declined; also the clear value
-    std::string declared_by;  ///< pass id or "graph file"
+    /// The first three channels are proportional to light: stored times FrameConstants::pre_exposure. holds_radiance()
+    /// of the name unless said otherwise.
+    bool radiance = false;
+    glm::vec4 neutral{0};    ///< what consumers read when its pass declined; also the clear value
+    std::string declared_by; ///< pass id or "graph file"
 };
+
+/// Whether a resource of this name is light when nothing else is said: any .radiance, .irradiance or .emission, and the
+/// parts that make up out.radiance.
+bool holds_radiance(const std::string& name);
 
 /// Throws Error unless the name has exactly one dot, no underscore before it, and only letters, digits and underscores.
 void check_resource_name(const std::string& name);

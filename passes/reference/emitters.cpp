@@ -26,7 +26,7 @@ static float solid_angle_density(float area_density, float distance_squared, flo
     return cosine > 1e-7f ? area_density * distance_squared / cosine : 0.0f;
 }
 
-Emitters::Sample Emitters::sample(const TraceGeometry& geometry, const glm::vec3& from, float choice,
+Emitters::Sample Emitters::sample(const TraceGeometry& geometry, const Place& from, float choice,
                                   const glm::vec2& u) const {
     Sample sample;
     const size_t i = table_.draw(choice);
@@ -36,11 +36,12 @@ Emitters::Sample Emitters::sample(const TraceGeometry& geometry, const glm::vec3
     const uint32_t* index = &mesh.indices[size_t(triangle.triangle) * 3];
     const glm::vec3 &p0 = mesh.vertices[index[0]].position, &p1 = mesh.vertices[index[1]].position,
                     &p2 = mesh.vertices[index[2]].position;
-    const glm::vec3 point = p0 + b * (p1 - p0) + c * (p2 - p0);
-    const glm::vec3 across = glm::cross(p1 - p0, p2 - p0);
+    const glm::vec3 edge1 = p1 - p0, edge2 = p2 - p0;
+    const Place point = place_on(p0, edge1, edge2, b, c);
+    const glm::vec3 across = glm::cross(edge1, edge2);
     const float twice_area = glm::length(across);
     glm::vec3 normal = across / twice_area;
-    const glm::vec3 to_point = point - from;
+    const glm::vec3 to_point = from.to(point);
     const float distance_squared = glm::dot(to_point, to_point);
     if (!(distance_squared > 0) || !(twice_area > 0)) return sample;
     sample.direction = to_point / std::sqrt(distance_squared);
@@ -48,20 +49,25 @@ Emitters::Sample Emitters::sample(const TraceGeometry& geometry, const glm::vec3
     sample.density = solid_angle_density(table_.probability(i) / (0.5f * twice_area), distance_squared,
                                          -glm::dot(normal, sample.direction));
     if (sample.density <= 0) return sample;
-    sample.position = point + self_intersection_epsilon(p0, p1, p2) * normal;
+    // Where a ray from afar meets the triangle is known as well as what leads from there to its corners.
+    const float from_afar = 16 * k_float_rounding * glm::dot(glm::abs(normal), glm::abs(to_point));
+    sample.position = point.position() + (safe_offset(point, edge1, edge2, normal) + from_afar) * normal;
     sample.radiance = geometry.expected_emission(mesh, triangle.triangle, b, c);
     return sample;
 }
 
-float Emitters::density(const TraceGeometry& geometry, const Hit& hit, const glm::vec3& ray_direction) const {
+float Emitters::density(const TraceGeometry& geometry, const Place& from, const Hit& hit,
+                        const glm::vec3& ray_direction) const {
     if (empty() || first_[hit.geometry] == ~0u) return 0;
     const TraceGeometry::Geometry& mesh = geometry.geometries()[hit.geometry];
     const glm::vec3 across = triangle_cross(mesh, hit.triangle);
     const float twice_area = glm::length(across);
     if (!(twice_area > 0)) return 0;
     const float cosine = std::abs(glm::dot(across, ray_direction)) / twice_area;
+    // Seen from the surface and not from the ray's origin, as `sample` does.
+    const glm::vec3 to_point = from.to(geometry.place(hit));
     return solid_angle_density(table_.probability(first_[hit.geometry] + hit.triangle) / (0.5f * twice_area),
-                               hit.distance * hit.distance, cosine);
+                               glm::dot(to_point, to_point), cosine);
 }
 
 } // namespace bounce

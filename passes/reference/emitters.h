@@ -18,9 +18,10 @@ class Emitters {
         glm::vec3 radiance{0};
         float density = 0; ///< per solid angle at the lit point; 0: nothing to add
     };
-    Sample sample(const TraceGeometry& geometry, const glm::vec3& from, float choice, const glm::vec2& u) const;
-    /// The density with which `sample` would have drawn the point where a ray hit, per solid angle.
-    float density(const TraceGeometry& geometry, const Hit& hit, const glm::vec3& ray_direction) const;
+    Sample sample(const TraceGeometry& geometry, const Place& from, float choice, const glm::vec2& u) const;
+    /// The density with which `sample` would have drawn the point where a ray from there hit, per solid angle.
+    float density(const TraceGeometry& geometry, const Place& from, const Hit& hit,
+                  const glm::vec3& ray_direction) const;
 
   private:
     struct Triangle {

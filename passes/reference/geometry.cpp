@@ -3,6 +3,7 @@
 #include "core/low_discrepancy.h"
 #include "scene/brdf.h"
 #include "scene/coverage.h"
+#include "scene/loaded_space.h"
 
 #include <cmath>
 
@@ -23,7 +24,7 @@ static T mix_corners(const T& a, const T& b, const T& c, float u, float v) {
 
 static glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
     float length_squared = glm::dot(v, v);
-    return length_squared > 1e-30f && length_squared < 1e30f ? v / std::sqrt(length_squared) : otherwise;
+    return length_squared > 1e-37f && length_squared < 1e37f ? v / std::sqrt(length_squared) : otherwise;
 }
 
 glm::vec3 triangle_cross(const TraceGeometry::Geometry& geometry, uint32_t triangle) {
@@ -37,8 +38,17 @@ TraceGeometry::Corners TraceGeometry::corners(const Geometry& geometry, uint32_t
     return {&geometry.vertices[i[0]], &geometry.vertices[i[1]], &geometry.vertices[i[2]]};
 }
 
+/// Embree may end the program on other rays: its range is ±1.8e18, and NaN is in none. Such rays meet nothing.
+static bool can_be_traced(const glm::vec3& origin, const glm::vec3& direction, float length) {
+    auto inside = [](const glm::vec3& v) {
+        return std::abs(v.x) <= k_farthest && std::abs(v.y) <= k_farthest && std::abs(v.z) <= k_farthest;
+    };
+    return inside(origin) && inside(direction) && length > 0;
+}
+
 Hit TraceGeometry::intersect(const glm::vec3& origin, const glm::vec3& direction, float length,
                              uint32_t coverage_seed) const {
+    if (!can_be_traced(origin, direction, length)) return {};
     RTCRayHit ray;
     ray.ray.org_x = origin.x;
     ray.ray.org_y = origin.y;
@@ -62,6 +72,7 @@ Hit TraceGeometry::intersect(const glm::vec3& origin, const glm::vec3& direction
 
 bool TraceGeometry::occluded(const glm::vec3& origin, const glm::vec3& direction, float length,
                              uint32_t coverage_seed) const {
+    if (!can_be_traced(origin, direction, length)) return false;
     RTCRay ray;
     ray.org_x = origin.x;
     ray.org_y = origin.y;
@@ -161,6 +172,11 @@ void TraceGeometry::prefetch_corners(const Hit& hit) const {
     __builtin_prefetch(t.c);
 }
 
+Place TraceGeometry::place(const Hit& hit) const {
+    const Corners t = corners(geometries_[hit.geometry], hit.triangle);
+    return place_on(t.a->position, t.b->position - t.a->position, t.c->position - t.a->position, hit.u, hit.v);
+}
+
 TraceGeometry::SurfacePlace TraceGeometry::find_surface(const Hit& hit) const {
     const Geometry& geometry = geometries_[hit.geometry];
     const TraceMaterial& material = materials_[size_t(geometry.material)];
@@ -190,10 +206,10 @@ Surface TraceGeometry::read_surface(const SurfacePlace& place, const Hit& hit, c
 
     Surface s;
     const glm::vec3 edge1 = t.b->position - t.a->position, edge2 = t.c->position - t.a->position;
-    s.position = t.a->position + u * edge1 + v * edge2;
-    s.epsilon = self_intersection_epsilon(t.a->position, t.b->position, t.c->position);
+    s.place = place_on(t.a->position, edge1, edge2, u, v);
     s.geometric = unit_or(glm::cross(edge1, edge2), -ray_direction);
     if (glm::dot(s.geometric, ray_direction) > 0) s.geometric = -s.geometric;
+    s.offset = safe_offset(s.place, edge1, edge2, s.geometric);
     s.material = geometry.material;
 
     glm::vec3 normal = unit_or(mix_corners(t.a->normal, t.b->normal, t.c->normal, u, v), s.geometric);

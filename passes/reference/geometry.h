@@ -20,10 +20,20 @@ struct Hit {
     bool valid() const { return geometry != RTC_INVALID_GEOMETRY_ID; }
 };
 
+/// A point of a triangle, as a corner and what leads from it to the point. Far from the origin a float cannot tell
+/// where the point is; what leads to another point nearby can still be told, because the difference of nearby floats is
+/// exact.
+struct Place {
+    glm::vec3 anchor, local;
+    glm::vec3 position() const { return anchor + local; }
+    glm::vec3 to(const glm::vec3& point) const { return (point - anchor) - local; }
+    glm::vec3 to(const Place& other) const { return (other.anchor - anchor) + (other.local - local); }
+};
+
 /// The surface at a hit, seen from the ray's side.
 struct Surface {
-    glm::vec3 position;
-    float epsilon;       ///< metres by which rays are moved off the surface
+    Place place;
+    float offset;        ///< metres by which rays are moved off the surface
     glm::vec3 geometric; ///< unit normal of the triangle, toward the viewer
     int material;
     glm::vec3 shading; ///< unit normal for shading (interpolated, normal-mapped), on the geometric normal's side
@@ -31,8 +41,8 @@ struct Surface {
     glm::vec3 base_colour; ///< linear
     float roughness;
     glm::vec3 emission; ///< W/(sr·m²), alike to both sides
-    /// Where rays to the viewer's side start.
-    glm::vec3 origin() const { return position + epsilon * geometric; }
+    /// Where rays to the viewer's side start. Light is evaluated at `place`.
+    glm::vec3 origin() const { return place.position() + offset * geometric; }
 };
 
 /// A ray as it was traced; kept only for measurements.
@@ -61,6 +71,7 @@ class TraceGeometry {
     /// Whether any material is blended, so that seeds matter.
     bool blended() const { return blended_; }
     Surface surface(const Hit& hit, const glm::vec3& ray_direction) const;
+    Place place(const Hit& hit) const;
     /// The same in four steps, each of which asks for the memory that the next one reads: hits are scattered over the
     /// scene, and a caller with several paths at hand takes each step for all of them, so that their ways from memory
     /// overlap.
@@ -145,11 +156,22 @@ inline Surface TraceGeometry::surface(const Hit& hit, const glm::vec3& ray_direc
 
 /// The triangle's edge vectors crossed: twice its area long. For sampling emitters.
 glm::vec3 triangle_cross(const TraceGeometry::Geometry& geometry, uint32_t triangle);
-/// By how much a ray must start off a triangle so as not to hit it: some rounding steps of its largest coordinate, so
-/// that a scaled scene is traced alike.
-inline float self_intersection_epsilon(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-    glm::vec3 most = glm::max(glm::max(glm::abs(a), glm::abs(b)), glm::abs(c));
-    return 4.0e-6f * std::max(most.x, std::max(most.y, most.z));
+/// Half of the last place of 1: what rounding takes from a float at most, as a share of it.
+constexpr float k_float_rounding = 5.9604645e-8f;
+
+/// The point of a triangle at barycentric coordinates u, v.
+inline Place place_on(const glm::vec3& a, const glm::vec3& edge1, const glm::vec3& edge2, float u, float v) {
+    return {a, u * edge1 + v * edge2};
+}
+/// By how much a ray must start off a triangle, along its unit normal, so as not to hit it: as far as the numbers of
+/// the point and of the intersection can be off, axis by axis (as in PBRT, section 6.8.4). `place.anchor` is the corner
+/// that the edges start from. The point: its coordinates are rounded twice, once moved. The intersection: sums of
+/// products of what leads from the ray's origin to the corners.
+inline float safe_offset(const Place& place, const glm::vec3& edge1, const glm::vec3& edge2, const glm::vec3& normal) {
+    const glm::vec3 extent = glm::abs(edge1) + glm::abs(edge2);
+    const glm::vec3 error = k_float_rounding * (3.0f * glm::abs(place.position()) + 16.0f * extent);
+    // A triangle across an axis is off by nothing along the others: some distance is needed all the same.
+    return glm::dot(glm::abs(normal), error) + 4 * k_float_rounding * std::max(extent.x, std::max(extent.y, extent.z));
 }
 
 } // namespace bounce

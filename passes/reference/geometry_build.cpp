@@ -2,9 +2,11 @@
 
 #include "core/error.h"
 #include "reference/geometry.h"
+#include "scene/loaded_space.h"
 #include "scene/normal_transform.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
@@ -26,6 +28,12 @@ TraceGeometry::TraceGeometry(const Shot& shot, const SceneState& state, bool dif
     geometries_.reserve(state.instances.size());
     for (const Instance& instance : state.instances)
         add_geometry(scene, instance);
+    if (!bounds_.empty() && bounds_.diagonal() == 0) {
+        const glm::dvec3 at = scene.space.to_file(bounds_.min);
+        throw Error(fmt::format("invalid geometry: all triangles lie in one point ({:g}, {:g}, {:g}), as far as floats "
+                                "can tell: expected triangles with an area",
+                                at.x, at.y, at.z));
+    }
     build();
 }
 
@@ -68,6 +76,17 @@ void TraceGeometry::add_material(const Material& material, bool normal_maps) {
     materials_.push_back(out);
 }
 
+/// Embree leaves out what lies beyond its range, and ends the program on what is not finite.
+static void check_vertex(const Scene& scene, const Instance& instance, uint32_t vertex, const glm::vec3& position) {
+    const bool inside =
+        std::abs(position.x) <= k_farthest && std::abs(position.y) <= k_farthest && std::abs(position.z) <= k_farthest;
+    if (inside) return;
+    throw Error(fmt::format("invalid vertex {} of node '{}' at ({:g}, {:g}, {:g}): expected coordinates within {:g}, "
+                            "beyond which no rays can be traced",
+                            vertex, scene.nodes[size_t(instance.node)].name.substr(0, 60), position.x, position.y,
+                            position.z, k_farthest));
+}
+
 void TraceGeometry::add_geometry(const Scene& scene, const Instance& instance) {
     const Primitive& primitive = instance.primitive;
     Geometry geometry;
@@ -104,7 +123,9 @@ void TraceGeometry::add_geometry(const Scene& scene, const Instance& instance) {
     geometry.indices.reserve(count);
     for (size_t i = first; i < first + count; ++i) {
         geometry.indices.push_back(scene.indices[i] - lowest);
-        bounds_.add(geometry.vertices[geometry.indices.back()].position);
+        const glm::vec3& position = geometry.vertices[geometry.indices.back()].position;
+        check_vertex(scene, instance, scene.indices[i], position);
+        bounds_.add(position);
     }
     geometries_.push_back(std::move(geometry));
 }

@@ -105,7 +105,7 @@ bool Integrator::blocked(const glm::vec3& origin, const glm::vec3& to_end, float
     return scene_.geometry.occluded(origin, to_end, length, coverage_seed);
 }
 
-float Integrator::light_probability(size_t i, const glm::vec3& x) const {
+float Integrator::light_probability(size_t i, const Place& x) const {
     float sum = 0;
     for (size_t j = 0; j < scene_.lights.size(); ++j)
         sum += scene_.lights.importance(j, x);
@@ -120,12 +120,14 @@ void Integrator::sample_lights(const Surface& surface, PixelSampler& sampler, si
     const PunctualLights& lights = scene_.lights;
     auto from_light = [&](size_t i, float probability) {
         const glm::vec2 u = lights.any_soft() ? sampler.next_pair() : glm::vec2(0);
-        const PunctualLights::Sample s = lights.sample(i, origin, u);
+        const PunctualLights::Sample s = lights.sample(i, surface.place, u);
         if (glm::dot(s.direction, surface.geometric) <= 0 || glm::dot(s.direction, surface.shading) <= 0) return;
         if (s.irradiance == glm::vec3(0)) return;
-        // A little short of the light, in case it touches a surface.
-        const float length = s.distance * (1 - 1e-6f);
-        if (blocked(origin, s.direction, length, coverage_seed(sampler, k_light_ray + uint32_t(i)))) return;
+        // To where the surface itself looks at, and a little short of it, in case the light touches a surface.
+        const bool near = s.distance < k_infinity;
+        const glm::vec3 to_end = near ? s.direction * s.distance - surface.offset * surface.geometric : s.direction;
+        if (blocked(origin, to_end, near ? 1 - 1e-6f : k_infinity, coverage_seed(sampler, k_light_ray + uint32_t(i))))
+            return;
         add(k_punctual, s.direction, s.irradiance / probability, s.density * probability);
     };
     if (lights.size() <= most_lights) {
@@ -134,10 +136,10 @@ void Integrator::sample_lights(const Surface& surface, PixelSampler& sampler, si
     } else {
         float sum = 0, before = 0;
         for (size_t i = 0; i < lights.size(); ++i)
-            sum += lights.importance(i, origin);
+            sum += lights.importance(i, surface.place);
         const float target = sampler.next() * sum;
         for (size_t i = 0; sum > 0 && i < lights.size(); ++i) {
-            const float importance = lights.importance(i, origin);
+            const float importance = lights.importance(i, surface.place);
             before += importance;
             if (before <= target || importance <= 0) continue;
             from_light(i, importance / sum);
@@ -146,7 +148,7 @@ void Integrator::sample_lights(const Surface& surface, PixelSampler& sampler, si
     }
     if (!scene_.emitters.empty()) {
         const float choice = sampler.next();
-        const Emitters::Sample s = scene_.emitters.sample(scene_.geometry, origin, choice, sampler.next_pair());
+        const Emitters::Sample s = scene_.emitters.sample(scene_.geometry, surface.place, choice, sampler.next_pair());
         if (s.density > 0 && s.radiance != glm::vec3(0) && glm::dot(s.direction, surface.geometric) > 0 &&
             glm::dot(s.direction, surface.shading) > 0) {
             if (!blocked(origin, s.position - origin, 1, coverage_seed(sampler, k_emitter_ray)))
@@ -168,7 +170,7 @@ void Integrator::sample_lights(const Surface& surface, PixelSampler& sampler, si
 
 /// What a ray drawn from a lobe meets by itself, weighted against next-event estimation: add(kind, radiance).
 template <class Add>
-void Integrator::meet_lights(const glm::vec3& origin, const glm::vec3& direction, const Hit& hit, float own_density,
+void Integrator::meet_lights(const Place& origin, const glm::vec3& direction, const Hit& hit, float own_density,
                              size_t most_lights, Add&& add) {
     scene_.lights.meet(origin, direction, hit.valid() ? hit.distance : k_infinity,
                        [&](size_t i, const glm::vec3& radiance, float density) {
@@ -185,7 +187,8 @@ void Integrator::meet_lights(const glm::vec3& origin, const glm::vec3& direction
     if (!scene_.geometry.emissive(mesh)) return;
     const glm::vec3 emission = scene_.geometry.emission(mesh, hit.triangle, hit.u, hit.v);
     if (emission == glm::vec3(0)) return;
-    add(k_emitted, emission * mis_weight(own_density, scene_.emitters.density(scene_.geometry, hit, direction)));
+    add(k_emitted,
+        emission * mis_weight(own_density, scene_.emitters.density(scene_.geometry, origin, hit, direction)));
 }
 
 /// A path beyond the visible surface: what the surface at `hit` scatters back along `direction` is being summed.
@@ -251,7 +254,7 @@ bool Integrator::extend(Path& path, const Surface& surface) {
     const glm::vec3 origin = surface.origin();
     path.hit = trace(origin, l, coverage_seed(path.sampler, k_diffuse_ray));
     scene_.geometry.prefetch_indices(path.hit);
-    meet_lights(origin, l, path.hit, density, k_all_lights,
+    meet_lights(surface.place, l, path.hit, density, k_all_lights,
                 [&](Kind, const glm::vec3& met) { path.radiance += path.throughput * met; });
     path.direction = l;
     ++path.depth;
@@ -329,7 +332,7 @@ void Integrator::begin(int x, int y, PixelSampler& sampler, PixelSample& out, st
         open = hit.valid() ? 0.0f : 1.0f;
         open_near = hit.valid() ? scene_.near_visibility(hit.distance) : 1.0f;
         const glm::vec3 weight = lobes.diffuse(l, nl) * k_pi;
-        meet_lights(origin, l, hit, nl / k_pi, k_all_lights_at_camera, [&](Kind kind, const glm::vec3& met) {
+        meet_lights(surface.place, l, hit, nl / k_pi, k_all_lights_at_camera, [&](Kind kind, const glm::vec3& met) {
             add_irradiance(kind, k_pi * met);
             add_first(kind, weight * met);
         });
@@ -346,7 +349,7 @@ void Integrator::begin(int x, int y, PixelSampler& sampler, PixelSample& out, st
             const glm::vec3 weight = gloss.value * (nl / gloss.density);
             const Hit hit = trace(origin, g, coverage_seed(sampler, k_gloss_ray));
             if (later_orders) scene_.geometry.prefetch_indices(hit);
-            meet_lights(origin, g, hit, gloss.density, k_all_lights_at_camera,
+            meet_lights(surface.place, g, hit, gloss.density, k_all_lights_at_camera,
                         [&](Kind kind, const glm::vec3& met) { add_first(kind, weight * met); });
             if (later_orders && hit.valid()) {
                 paths.push_back(
@@ -389,7 +392,7 @@ PixelSurface Integrator::centre(int x, int y) {
     if (!hit.valid()) return out;
     const Surface surface = scene_.geometry.surface(hit, direction);
     out.hit = true;
-    out.position = surface.position;
+    out.position = surface.place.position();
     out.normal = surface.shading;
     out.albedo = surface.base_colour;
     out.material = float(surface.material);

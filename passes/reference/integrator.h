@@ -77,12 +77,12 @@ class Integrator {
     template <class Add>
     void sample_lights(const Surface& surface, PixelSampler& sampler, size_t most_lights, Add&& add);
     template <class Add>
-    void meet_lights(const glm::vec3& origin, const glm::vec3& direction, const Hit& hit, float own_density,
+    void meet_lights(const Place& origin, const glm::vec3& direction, const Hit& hit, float own_density,
                      size_t most_lights, Add&& add);
     void begin(int x, int y, PixelSampler& sampler, PixelSample& out, std::vector<Path>& paths);
     void follow(std::vector<Path>& paths);
     bool extend(Path& path, const Surface& surface);
-    float light_probability(size_t i, const glm::vec3& x) const;
+    float light_probability(size_t i, const Place& x) const;
 
     const TraceScene& scene_;
     uint64_t rays_ = 0;

@@ -15,12 +15,12 @@ PunctualLights::PunctualLights(const std::vector<Light>& lights) {
 }
 
 /// light_irradiance of scene/light_falloff.h, with the cones' cosines at hand.
-glm::vec3 PunctualLights::Prepared::irradiance(const glm::vec3& x, glm::vec3& l) const {
+glm::vec3 PunctualLights::Prepared::irradiance(const Place& x, glm::vec3& l) const {
     if (directional()) {
         l = -direction;
         return intensity;
     }
-    const glm::vec3 to_light = position - x;
+    const glm::vec3 to_light = x.to(position);
     const float distance_squared = std::max(glm::dot(to_light, to_light), 1.0e-20f);
     l = to_light / std::sqrt(distance_squared);
     const float falloff =
@@ -34,12 +34,12 @@ float PunctualLights::Prepared::cone_sin_squared(float distance_squared) const {
     return directional() ? sin_squared : std::min(radius * radius / distance_squared, 0.99f);
 }
 
-PunctualLights::Sample PunctualLights::sample(size_t i, const glm::vec3& x, const glm::vec2& u) const {
+PunctualLights::Sample PunctualLights::sample(size_t i, const Place& x, const glm::vec2& u) const {
     const Prepared& light = lights_[i];
     Sample sample;
     const glm::vec3 irradiance = light.irradiance(x, sample.direction);
     const bool directional = light.directional();
-    const glm::vec3 to_light = light.position - x;
+    const glm::vec3 to_light = x.to(light.position);
     const float distance_squared = glm::dot(to_light, to_light);
     sample.distance = directional ? std::numeric_limits<float>::infinity() : std::sqrt(distance_squared);
     sample.irradiance = irradiance;
@@ -60,19 +60,19 @@ PunctualLights::Sample PunctualLights::sample(size_t i, const glm::vec3& x, cons
     return sample;
 }
 
-float PunctualLights::importance(size_t i, const glm::vec3& x) const {
+float PunctualLights::importance(size_t i, const Place& x) const {
     glm::vec3 l;
     return luminance(lights_[i].irradiance(x, l));
 }
 
-bool PunctualLights::meets(size_t i, const glm::vec3& origin, const glm::vec3& direction, float distance,
+bool PunctualLights::meets(size_t i, const Place& origin, const glm::vec3& direction, float distance,
                            glm::vec3& radiance, float& density) const {
     const Prepared& light = lights_[i];
     if (!light.soft()) return false;
     glm::vec3 l;
     const glm::vec3 irradiance = light.irradiance(origin, l);
     const bool directional = light.directional();
-    const glm::vec3 to_light = light.position - origin;
+    const glm::vec3 to_light = origin.to(light.position);
     const float distance_squared = glm::dot(to_light, to_light);
     const float s2 = light.cone_sin_squared(distance_squared);
     const glm::vec3 across = glm::cross(l, direction);

@@ -3,6 +3,7 @@
 // of directions) of uniform radiance whose unoccluded irradiance at normal incidence is that of the hard light:
 // I·falloff/d², the spot's falloff taken at its centre. It is not seen by the camera and blocks no light.
 
+#include "reference/geometry.h"
 #include "reference/sampling.h"
 #include "scene/light_falloff.h"
 
@@ -23,13 +24,13 @@ class PunctualLights {
         float density = 0;       ///< per solid angle; 0 for a hard light, whose direction is the only one
     };
     /// Light i as seen from x.
-    Sample sample(size_t i, const glm::vec3& x, const glm::vec2& u) const;
+    Sample sample(size_t i, const Place& x, const glm::vec2& u) const;
     /// Unoccluded irradiance at normal incidence from light i, by which one of many lights is chosen.
-    float importance(size_t i, const glm::vec3& x) const;
+    float importance(size_t i, const Place& x) const;
 
-    /// Calls add(i, radiance, density) for each soft light that a ray meets before `distance`.
+    /// Calls add(i, radiance, density) for each soft light that a ray from `origin` meets before `distance`.
     template <class Add>
-    void meet(const glm::vec3& origin, const glm::vec3& direction, float distance, Add&& add) const {
+    void meet(const Place& origin, const glm::vec3& direction, float distance, Add&& add) const {
         for (size_t i = 0; any_soft_ && i < lights_.size(); ++i) {
             glm::vec3 radiance;
             float density;
@@ -46,10 +47,10 @@ class PunctualLights {
         float sin_squared; ///< of the angular radius
         bool directional() const { return type == LightType::directional; }
         bool soft() const { return directional() ? sin_squared > 0 : radius > 0; }
-        glm::vec3 irradiance(const glm::vec3& x, glm::vec3& l) const;
+        glm::vec3 irradiance(const Place& x, glm::vec3& l) const;
         float cone_sin_squared(float distance_squared) const;
     };
-    bool meets(size_t i, const glm::vec3& origin, const glm::vec3& direction, float distance, glm::vec3& radiance,
+    bool meets(size_t i, const Place& origin, const glm::vec3& direction, float distance, glm::vec3& radiance,
                float& density) const;
 
     std::vector<Prepared> lights_;

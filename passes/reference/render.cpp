@@ -4,8 +4,10 @@
 #include "core/text.h"
 #include "reference/content_key.h"
 #include "reference/integrator.h"
+#include "scene/loaded_space.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <tbb/blocked_range.h>
@@ -25,8 +27,26 @@ struct ReferenceRender::Centres {
     Mask mask;
 };
 
+/// What the shot has loaded is checked already; a window, or a program, may have set anything since.
+static void check_state(const ShotState& state) {
+    const Camera& camera = state.camera;
+    check_place(camera.position, "the camera");
+    check_place(camera.target, "the camera's target");
+    check_place(camera.up, "the tip of the camera's up vector");
+    if (!(camera.vfov > 0 && camera.vfov < 3.1415927f))
+        throw Error(fmt::format("invalid field of view of the camera {:g}: expected an angle above 0 and below π",
+                                camera.vfov));
+    for (const Light& light : state.scene.lights) {
+        const std::string what = fmt::format("light '{}'", light.name.substr(0, 60));
+        if (light.type != LightType::directional) check_place(light.position, what);
+        check_place(light.direction, "the direction of " + what);
+        if (!std::isfinite(light.intensity.r + light.intensity.g + light.intensity.b))
+            throw Error(fmt::format("invalid intensity of {}: expected finite numbers", what));
+    }
+}
+
 ReferenceRender::ReferenceRender(const Shot& shot, const ReferenceSettings& settings, int frame)
-    : settings_(settings), shot_name_(shot.name), width_(shot.width), height_(shot.height) {
+    : settings_(settings), shot_name_(shot.name), space_(shot.scene.space), width_(shot.width), height_(shot.height) {
     if (width_ <= 0 || height_ <= 0 || int64_t(width_) * height_ > (int64_t(1) << 27)) {
         throw Error(
             fmt::format("a reference of {}x{} pixels cannot be made; both must be at least 1, and their product "
@@ -40,6 +60,7 @@ ReferenceRender::ReferenceRender(const Shot& shot, const ReferenceSettings& sett
     if (settings.roulette_depth < 1) throw Error("the roulette depth must be at least 1");
     if (settings.threads < 0) throw Error("the number of threads must be 0 (all) or more");
     const ShotState state = evaluate_shot(shot, frame);
+    check_state(state);
     camera_position_ = state.camera.position;
     key_ = content_key(shot, state, settings_);
     scene_ = std::make_unique<TraceScene>(shot, state, settings_);
@@ -254,7 +275,12 @@ std::string ReferenceRender::metadata() const {
     json["roulette_depth"] = settings_.roulette_depth;
     json["stratified"] = settings_.stratified;
     json["seed"] = settings_.seed;
+    // gbuffer.position and this are loaded coordinates: file = origin + unit · loaded.
     json["camera_position"] = {camera_position_.x, camera_position_.y, camera_position_.z};
+    if (!(space_ == LoadedSpace{})) {
+        json["origin"] = {space_.origin.x, space_.origin.y, space_.origin.z};
+        json["unit"] = space_.unit;
+    }
     auto add = [&](const std::string& name) {
         const PartNoise n = noise(name);
         json["noise"][name] = {{"mean", n.mean},

@@ -58,8 +58,8 @@ class ReferenceRender {
     // The following must not run at the same time as render_to.
 
     /// Every part (k_reference_parts), out.radiance, and for masks gbuffer.normal, gbuffer.position, gbuffer.albedo,
-    /// gbuffer.material (index, −1 = background), gbuffer.roughness and gbuffer.metallic at pixel centres. Metadata:
-    /// JSON with shot, settings, samples and the noise of each part.
+    /// gbuffer.material (index, −1 = background), gbuffer.roughness and gbuffer.metallic at pixel centres. Positions
+    /// are loaded ones (Scene::space). Metadata: JSON with shot, settings, samples and the noise of each part.
     LayeredImage image() const;
     /// One part (or out.radiance) as image() has it. Throws Error for an unknown name.
     Image part(const std::string& name) const;
@@ -111,6 +111,7 @@ class ReferenceRender {
 
     ReferenceSettings settings_;
     std::string shot_name_, key_;
+    LoadedSpace space_;
     int width_, height_;
     glm::vec3 camera_position_;
     std::unique_ptr<TraceScene> scene_;

@@ -60,6 +60,6 @@ constexpr int k_reference_channels = 32;
 constexpr int k_radiance_parts = 6;
 
 /// Part of every cache key: to be raised whenever a change in the tracer changes its results.
-constexpr std::string_view k_tracer_version = "1";
+constexpr std::string_view k_tracer_version = "2";
 
 } // namespace bounce

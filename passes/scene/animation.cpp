@@ -8,9 +8,9 @@ namespace bounce {
 namespace {
 
 struct Transform {
-    glm::vec3 translation;
-    glm::quat rotation;
-    glm::vec3 scale;
+    glm::dvec3 translation;
+    glm::dquat rotation;
+    glm::dvec3 scale;
 };
 
 std::vector<Transform> local_transforms(const Scene& scene, float time) {
@@ -25,13 +25,13 @@ std::vector<Transform> local_transforms(const Scene& scene, float time) {
             glm::vec4 value = sample_channel(channel, t);
             switch (channel.target) {
             case AnimationTarget::translation:
-                local.translation = value;
+                local.translation = glm::dvec3(value);
                 break;
             case AnimationTarget::rotation:
-                local.rotation = glm::quat(value.w, value.x, value.y, value.z);
+                local.rotation = glm::dquat(value.w, value.x, value.y, value.z);
                 break;
             case AnimationTarget::scale:
-                local.scale = value;
+                local.scale = glm::dvec3(value);
                 break;
             }
         }
@@ -47,35 +47,52 @@ std::vector<Transform> local_transforms(const Scene& scene, float time) {
     return out;
 }
 
-glm::mat4 matrix_of(const Node& node, const Transform& local) {
+glm::dmat4 matrix_of(const Node& node, const Transform& local) {
     if (node.has_matrix) return node.matrix;
-    glm::mat3 linear = glm::mat3_cast(local.rotation);
-    return glm::mat4(glm::vec4(linear[0] * local.scale.x, 0), glm::vec4(linear[1] * local.scale.y, 0),
-                     glm::vec4(linear[2] * local.scale.z, 0), glm::vec4(local.translation, 1));
+    glm::dmat3 linear = glm::mat3_cast(local.rotation);
+    return glm::dmat4(glm::dvec4(linear[0] * local.scale.x, 0), glm::dvec4(linear[1] * local.scale.y, 0),
+                      glm::dvec4(linear[2] * local.scale.z, 0), glm::dvec4(local.translation, 1));
 }
 
 /// The unit direction of one of a node's axes; scales of zero leave the axis as it is.
-glm::vec3 world_axis(const glm::mat4& world, const glm::vec3& axis) {
-    glm::vec3 v = glm::mat3(world) * axis;
-    float length = glm::length(v);
-    return length > 0 ? v / length : axis;
+glm::vec3 world_axis(const glm::dmat4& world, const glm::dvec3& axis) {
+    glm::dvec3 v = glm::dmat3(world) * axis;
+    double length = glm::length(v);
+    return glm::vec3(length > 0 ? v / length : axis);
+}
+
+std::vector<glm::mat4> loaded(const LoadedSpace& space, std::vector<glm::dmat4> worlds) {
+    std::vector<glm::mat4> out;
+    out.reserve(worlds.size());
+    for (glm::dmat4& world : worlds) {
+        world[3] -= glm::dvec4(space.origin, 0);
+        for (int column = 0; column < 4; ++column)
+            world[column] = glm::dvec4(glm::dvec3(world[column]) / space.unit, world[column].w);
+        out.emplace_back(world);
+    }
+    return out;
 }
 
 } // namespace
 
-std::vector<glm::mat4> world_matrices(const Scene& scene, float time) {
+std::vector<glm::dmat4> file_matrices(const Scene& scene, float time) {
     std::vector<Transform> locals = local_transforms(scene, time);
-    std::vector<glm::mat4> worlds(scene.nodes.size());
+    std::vector<glm::dmat4> worlds(scene.nodes.size());
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
         const Node& node = scene.nodes[i];
-        glm::mat4 local = matrix_of(node, locals[i]);
+        glm::dmat4 local = matrix_of(node, locals[i]);
         worlds[i] = node.parent < 0 ? local : worlds[size_t(node.parent)] * local;
     }
     return worlds;
 }
 
+std::vector<glm::mat4> world_matrices(const Scene& scene, float time) {
+    return loaded(scene.space, file_matrices(scene, time));
+}
+
 SceneState evaluate_scene(const Scene& scene, float time, float previous_time) {
-    std::vector<glm::mat4> now = world_matrices(scene, time);
+    const std::vector<glm::dmat4> in_file = file_matrices(scene, time);
+    std::vector<glm::mat4> now = loaded(scene.space, in_file);
     std::vector<glm::mat4> before = previous_time == time ? now : world_matrices(scene, previous_time);
     SceneState state;
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -86,14 +103,19 @@ SceneState evaluate_scene(const Scene& scene, float time, float previous_time) {
         if (node.light >= 0 && scene.lights[size_t(node.light)].enabled) {
             Light light = scene.lights[size_t(node.light)];
             light.position = glm::vec3(now[i][3]);
-            light.direction = world_axis(now[i], {0, 0, -1});
+            light.direction = world_axis(in_file[i], {0, 0, -1});
+            light.radius = float(light.radius / scene.space.unit);
+            // Irradiance falls with the square of a distance that is told in another unit.
+            if (light.type != LightType::directional)
+                light.intensity = glm::vec3(glm::dvec3(light.intensity) / (scene.space.unit * scene.space.unit));
             state.lights.push_back(std::move(light));
         }
         if (node.camera >= 0) {
             Camera camera = scene.cameras[size_t(node.camera)];
+            camera.near_plane = float(camera.near_plane / scene.space.unit);
             camera.position = glm::vec3(now[i][3]);
-            camera.target = camera.position + world_axis(now[i], {0, 0, -1});
-            camera.up = world_axis(now[i], {0, 1, 0});
+            camera.target = camera.position + world_axis(in_file[i], {0, 0, -1});
+            camera.up = world_axis(in_file[i], {0, 1, 0});
             state.cameras.push_back(std::move(camera));
         }
     }

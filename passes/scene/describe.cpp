@@ -18,12 +18,22 @@ std::string with_commas(size_t n) {
     return digits;
 }
 
-std::string box(const Bounds& bounds) {
+/// In the file's coordinates. Far from the origin the corners need more digits to differ.
+std::string box(const Bounds& bounds, const LoadedSpace& space) {
     if (bounds.empty()) return "empty";
-    glm::vec3 size = bounds.size();
-    return fmt::format("{:.4g} × {:.4g} × {:.4g} m, from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})", size.x,
-                       size.y, size.z, bounds.min.x, bounds.min.y, bounds.min.z, bounds.max.x, bounds.max.y,
-                       bounds.max.z);
+    glm::dvec3 min = space.to_file(bounds.min), max = space.to_file(bounds.max), size = max - min;
+    int digits = space.origin == glm::dvec3(0) ? 4 : 10;
+    return fmt::format("{:.4g} × {:.4g} × {:.4g} m, from ({:.{}g}, {:.{}g}, {:.{}g}) to ({:.{}g}, {:.{}g}, {:.{}g})",
+                       size.x, size.y, size.z, min.x, digits, min.y, digits, min.z, digits, max.x, digits, max.y,
+                       digits, max.z, digits);
+}
+
+std::string space_line(const LoadedSpace& space) {
+    std::string out;
+    if (space.origin != glm::dvec3(0))
+        out = fmt::format("relative to ({:.10g}, {:.10g}, {:.10g})", space.origin.x, space.origin.y, space.origin.z);
+    if (space.unit != 1) out += fmt::format("{}in units of {:.4g} m", out.empty() ? "" : ", ", space.unit);
+    return out + ", because floats hold seven digits";
 }
 
 std::string light_line(const SceneFacts& facts) {
@@ -127,12 +137,14 @@ std::string describe_scene(const Shot& shot) {
              ? fmt::format("{:.4g} s, {} of {} instances move{}", facts.animation_duration, facts.dynamic_instances,
                            facts.instances, shot.camera_path.empty() ? "" : ", so does the camera")
              : "none");
-    line("bounds", box(facts.bounds));
-    if (facts.dynamic_instances > 0) line("  over time", box(facts.bounds_over_animation));
+    const LoadedSpace& space = shot.scene.space;
+    line("bounds", box(facts.bounds, space));
+    if (facts.dynamic_instances > 0) line("  over time", box(facts.bounds_over_animation, space));
     if (std::string strays = describe_strays(facts); !strays.empty()) {
-        line("  in all", box(facts.whole_bounds));
+        line("  in all", box(facts.whole_bounds, space));
         line("  left out", strays);
     }
+    if (!(space == LoadedSpace{})) line("loaded", space_line(space));
 
     std::vector<std::string> needs, not_needs;
     add_needs(facts, shot, needs, not_needs);

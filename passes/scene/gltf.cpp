@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "scene/gltf_parts.h"
+#include "scene/loaded_space.h"
 #include "scene/shot.h"
 
 #include <new>
@@ -16,6 +17,7 @@ Scene load_gltf(const std::filesystem::path& path) {
         read_meshes(source, scene);
         std::vector<int> node_index = read_nodes(source, scene);
         read_animations(source, node_index, scene);
+        recentre_meshes(scene);
         mark_dynamic_nodes(scene);
         return scene;
     } catch (const std::bad_alloc&) {

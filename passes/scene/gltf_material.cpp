@@ -2,6 +2,7 @@
 #include "scene/gltf_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace bounce {
@@ -73,6 +74,10 @@ class MaterialReader {
         if (from.emissiveFactor.size() == 3)
             for (int c = 0; c < 3; ++c)
                 to.emission[c] = std::max(float(from.emissiveFactor[size_t(c)]), 0.0f) * strength;
+        if (!std::isfinite(to.emission.r + to.emission.g + to.emission.b))
+            throw Error(fmt::format("{}: invalid materials[{}].emissiveStrength {:g}: expected a product with "
+                                    "emissiveFactor that a float holds",
+                                    source_.where(), index, strength));
 
         if (from.alphaMode == "MASK") {
             to.alpha_mode = AlphaMode::mask;

@@ -72,16 +72,16 @@ class NodeReader {
         if (from.matrix.size() == 16) {
             node.has_matrix = true;
             for (int i = 0; i < 16; ++i)
-                glm::value_ptr(node.matrix)[i] = float(from.matrix[size_t(i)]);
+                glm::value_ptr(node.matrix)[i] = from.matrix[size_t(i)];
         }
         if (from.translation.size() == 3)
-            node.translation = {float(from.translation[0]), float(from.translation[1]), float(from.translation[2])};
-        if (from.scale.size() == 3) node.scale = {float(from.scale[0]), float(from.scale[1]), float(from.scale[2])};
+            node.translation = {from.translation[0], from.translation[1], from.translation[2]};
+        if (from.scale.size() == 3) node.scale = {from.scale[0], from.scale[1], from.scale[2]};
         if (from.rotation.size() == 4) {
             glm::dquat q(from.rotation[3], from.rotation[0], from.rotation[1], from.rotation[2]);
             double length = glm::length(q);
             if (length > 0 && std::isfinite(length))
-                node.rotation = glm::quat(q / length);
+                node.rotation = q / length;
             else
                 scene_.notes.push_back(fmt::format("nodes[{}].rotation has length 0 and is read as none", number));
         }
@@ -103,6 +103,10 @@ class NodeReader {
             glm::vec3 colour(1);
             if (from.color.size() == 3) colour = {float(from.color[0]), float(from.color[1]), float(from.color[2])};
             light.intensity = glm::max(colour * float(from.intensity), glm::vec3(0));
+            if (!std::isfinite(light.intensity.r + light.intensity.g + light.intensity.b))
+                throw Error(fmt::format("{}: invalid lights[{}].intensity {:g}: expected a product with color that a "
+                                        "float holds",
+                                        source_.where(), i, from.intensity));
             light.inner_cone = float(from.spot.innerConeAngle);
             light.outer_cone = float(from.spot.outerConeAngle);
             if (light.type == LightType::spot) check_cone(light, i);

@@ -18,10 +18,10 @@ static bool is_real(const json& value) {
     return value.is_number() && std::abs(value.get<double>()) <= 1e30;
 }
 
-std::optional<glm::vec3> json_vector(const json& value) {
+std::optional<glm::dvec3> json_vector(const json& value) {
     if (!value.is_array() || value.size() != 3 || !std::all_of(value.begin(), value.end(), is_real))
         return std::nullopt;
-    return glm::vec3(value[0].get<float>(), value[1].get<float>(), value[2].get<float>());
+    return glm::dvec3(value[0].get<double>(), value[1].get<double>(), value[2].get<double>());
 }
 
 JsonObject::JsonObject(const json& value, std::string where, ErrorList& errors)
@@ -77,7 +77,7 @@ std::optional<std::string> JsonObject::text(const char* key) {
     return value->get<std::string>();
 }
 
-std::optional<glm::vec3> JsonObject::vector(const char* key) {
+std::optional<glm::dvec3> JsonObject::vector(const char* key) {
     const json* value = find(key);
     if (!value) return std::nullopt;
     auto vector = json_vector(*value);

@@ -28,7 +28,7 @@ class JsonObject {
     std::optional<int> whole(const char* key, int least, int most);
     std::optional<bool> boolean(const char* key);
     std::optional<std::string> text(const char* key);
-    std::optional<glm::vec3> vector(const char* key);
+    std::optional<glm::dvec3> vector(const char* key);
     /// A number (grey) or an array of 3, none negative.
     std::optional<glm::vec3> colour(const char* key);
     /// One of `names`; its index.
@@ -50,6 +50,6 @@ class JsonObject {
 };
 
 /// An array of 3 finite numbers.
-std::optional<glm::vec3> json_vector(const nlohmann::json& value);
+std::optional<glm::dvec3> json_vector(const nlohmann::json& value);
 
 } // namespace bounce

@@ -57,7 +57,7 @@ PathKey Path::at(float t) const {
         std::upper_bound(keys.begin(), keys.end(), t, [](float time, const PathKey& key) { return time < key.t; });
     PathKey out = after == keys.begin() ? keys.front() : *(after - 1);
     if (after != keys.begin() && after != keys.end()) {
-        float s = (t - out.t) / (after->t - out.t);
+        double s = (t - out.t) / (after->t - out.t);
         out.position = glm::mix(out.position, after->position, s);
         out.target = glm::mix(out.target, after->target, s);
         out.has_target = out.has_target && after->has_target;

@@ -1,6 +1,11 @@
 #pragma once
 // Plain scene data: what a glTF file (or several, placed by a shot) holds. No OpenGL.
 // World: metres, right-handed, Y up. Angles in radians. Colours and factors linear unless said otherwise.
+//
+// A scene far from its origin, or of an extreme size, is loaded relative to its own centre and in a unit of its own
+// (LoadedSpace), because floats hold seven digits. What a file says stays in the file's coordinates, in double
+// precision: nodes, paths, lights' intensities and radii. Whatever is evaluated is loaded: instances, lights, cameras,
+// bounds.
 
 #include "core/image.h"
 
@@ -112,11 +117,11 @@ struct Camera {
 };
 
 /// A piecewise linear path through keys (position and, where given, a target to look at); frames before the first and
-/// after the last key hold still.
+/// after the last key hold still. In the file's coordinates.
 struct PathKey {
     float t = 0; ///< seconds
-    glm::vec3 position{0};
-    glm::vec3 target{0};
+    glm::dvec3 position{0};
+    glm::dvec3 target{0};
     bool has_target = false;
 };
 struct Path {
@@ -125,15 +130,16 @@ struct Path {
     PathKey at(float t) const;
 };
 
-/// Local transform = translation · rotation · scale, or `matrix` when has_matrix.
+/// Local transform = translation · rotation · scale, or `matrix` when has_matrix. In the file's coordinates, and in
+/// double precision: a node may lie far away, and its child may lead back.
 struct Node {
     std::string name;
     int parent = -1; ///< index of the parent; parents come before children
-    glm::vec3 translation{0};
-    glm::quat rotation{1, 0, 0, 0};
-    glm::vec3 scale{1};
+    glm::dvec3 translation{0};
+    glm::dquat rotation{1, 0, 0, 0};
+    glm::dvec3 scale{1};
     bool has_matrix = false;
-    glm::mat4 matrix{1};
+    glm::dmat4 matrix{1};
     int mesh = -1;
     int camera = -1;
     int light = -1;
@@ -179,8 +185,18 @@ struct Bounds {
     float diagonal() const { return empty() ? 0.0f : glm::length(size()); }
 };
 
+/// Where the loaded scene lies in its file: file = origin + unit · loaded. The identity for ordinary scenes.
+struct LoadedSpace {
+    glm::dvec3 origin{0};
+    double unit = 1; ///< a power of two, metres of the file per loaded metre
+    glm::vec3 to_loaded(const glm::dvec3& file) const { return glm::vec3((file - origin) / unit); }
+    glm::dvec3 to_file(const glm::vec3& loaded) const { return origin + unit * glm::dvec3(loaded); }
+    bool operator==(const LoadedSpace&) const = default;
+};
+
 struct Scene {
     std::string name;
+    LoadedSpace space;
     std::vector<Vertex> vertices;
     std::vector<uint32_t> indices;
     std::vector<Mesh> meshes;
@@ -210,7 +226,10 @@ struct SceneState {
     std::vector<Camera> cameras; ///< the file's cameras in world space
 };
 
-/// World matrices of all nodes at `time` seconds (every animation of the file plays at once, looped).
+/// World matrices of all nodes at `time` seconds (every animation of the file plays at once, looped), in the file's
+/// coordinates.
+std::vector<glm::dmat4> file_matrices(const Scene& scene, float time);
+/// The same to the loaded world.
 std::vector<glm::mat4> world_matrices(const Scene& scene, float time);
 SceneState evaluate_scene(const Scene& scene, float time, float previous_time);
 

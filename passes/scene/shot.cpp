@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "scene/gltf_parts.h"
 #include "scene/keyframes.h"
+#include "scene/loaded_space.h"
 #include "scene/merge.h"
 #include "scene/shot_parts.h"
 
@@ -38,7 +39,6 @@ class ShotReader {
         const std::vector<std::string> models(k_material_models.begin(), k_material_models.end());
         if (auto model = object_.choice("material_model", models)) shot_.material_model = MaterialModel(*model);
         shot_.normal_maps = object_.boolean("normal_maps").value_or(true);
-        if (const json* value = object_.find("camera")) shot_.camera = read_camera(*value, errors_);
         shot_.camera_path = read_path(object_, "camera_path");
         bool path_aims = !shot_.camera_path.empty() && shot_.camera_path.keys.front().has_target;
         if (object_.has("camera_path") && !object_.has("camera") && !path_aims)
@@ -48,6 +48,8 @@ class ShotReader {
         read_scene();
         read_objects();
         read_lights();
+        shot_.scene.space = suitable_space(shot_.scene);
+        if (const json* value = object_.find("camera")) shot_.camera = read_camera(*value, shot_.scene.space, errors_);
         object_.finish();
         errors_.throw_if_any(shot_.path.string());
 
@@ -125,6 +127,7 @@ Shot wrap_scene(const fs::path& path) {
     shot.path = path;
     shot.scene = load_gltf(path);
     shot.name = shot.scene.name;
+    shot.scene.space = suitable_space(shot.scene);
     complete_shot(shot, false, true);
     return shot;
 }
@@ -177,8 +180,8 @@ ShotState evaluate_shot(const Shot& shot, int frame) {
         PathKey key = shot.camera_path.at(state.time);
         // Without targets the camera travels along the path and keeps the way it looks.
         glm::vec3 ahead = shot.camera.target - shot.camera.position;
-        state.camera.position = key.position;
-        state.camera.target = key.has_target ? key.target : key.position + ahead;
+        state.camera.position = shot.scene.space.to_loaded(key.position);
+        state.camera.target = key.has_target ? shot.scene.space.to_loaded(key.target) : state.camera.position + ahead;
     }
     return state;
 }

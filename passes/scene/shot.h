@@ -18,8 +18,10 @@ struct Shot {
     std::filesystem::path path; ///< the file it came from
     Scene scene;                ///< file scene plus `objects`, lights by `lights_mode`, normal_maps applied
     Environment environment;
-    Camera camera;    ///< when the shot names none: the file's first camera, else one that frames the bounds
-    Path camera_path; ///< empty unless the shot has one
+    /// Loaded (Scene::space), as all cameras are. When the shot names none: the file's first, else one that frames the
+    /// bounds.
+    Camera camera;
+    Path camera_path;              ///< in the file's coordinates; empty unless the shot has one
     std::vector<Path> light_paths; ///< per Scene::lights entry, to look at; Node::path is what moves the light
     int width = 1280;
     int height = 720;
@@ -57,7 +59,7 @@ Scene load_gltf(const std::filesystem::path& path);
 /// Error naming the places tried.
 std::filesystem::path find_scene(const std::string& name, const std::filesystem::path& base);
 
-/// The camera as JSON text for a shot file ({"position":…}), for captures and bookmarks.
-std::string camera_json(const Camera& camera);
+/// The camera as JSON text for a shot file ({"position":…}), for captures and bookmarks: in the file's coordinates.
+std::string camera_json(const Camera& camera, const LoadedSpace& space);
 
 } // namespace bounce

@@ -2,10 +2,12 @@
 #include "scene/default_view.h"
 #include "scene/extent.h"
 #include "scene/keyframes.h"
+#include "scene/loaded_space.h"
 #include "scene/shot_parts.h"
 
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/gtx/component_wise.hpp>
 
 namespace bounce {
 
@@ -27,9 +29,9 @@ Path read_path(JsonObject& object, const char* key) {
         from.require("position", "where it is at t, in metres");
         PathKey to;
         to.t = from.number("t", -1e6, 1e6).value_or(0);
-        to.position = from.vector("position").value_or(glm::vec3(0));
+        to.position = from.vector("position").value_or(glm::dvec3(0));
         to.has_target = from.has("target");
-        to.target = from.vector("target").value_or(glm::vec3(0));
+        to.target = from.vector("target").value_or(glm::dvec3(0));
         from.finish();
         targets += to.has_target;
         ordered = ordered && (path.keys.empty() || to.t > path.keys.back().t);
@@ -41,34 +43,47 @@ Path read_path(JsonObject& object, const char* key) {
     return path;
 }
 
-Camera read_camera(const json& value, ErrorList& errors) {
+Camera read_camera(const json& value, const LoadedSpace& space, ErrorList& errors) {
     JsonObject object(value, "camera", errors);
     Camera camera;
     object.require("position", "where the camera is, in metres");
     object.require("target", "the point it looks at");
     camera.name = object.text("name").value_or("");
-    camera.position = object.vector("position").value_or(camera.position);
-    camera.target = object.vector("target").value_or(camera.target);
-    camera.up = object.vector("up").value_or(camera.up);
+    const auto position = object.vector("position"), target = object.vector("target");
+    if (position) camera.position = space.to_loaded(*position);
+    if (target) camera.target = space.to_loaded(*target);
+    if (auto up = object.vector("up")) {
+        // Only its direction counts.
+        const double most = glm::compMax(glm::abs(*up));
+        camera.up = most > 0 ? glm::vec3(*up / most) : glm::vec3(0);
+    }
     if (auto degrees = object.number("vfov_deg", 0.1, 170)) camera.vfov = glm::radians(*degrees);
-    camera.near_plane = object.number("near", 0, 1e9).value_or(0);
-    bool both = object.has("position") && object.has("target");
-    if (both && glm::distance(camera.position, camera.target) == 0)
+    camera.near_plane = float(object.number("near", 0, 1e9).value_or(0) / space.unit);
+    if (position && target && *position == *target)
         errors.add("camera.target is the camera's position: it must lie in front of it");
+    else if (position && target && camera.position == camera.target)
+        errors.add("camera.target is so near to camera.position that floats cannot tell them apart: expected a target "
+                   "further off");
     if (glm::length(camera.up) == 0) errors.add("camera.up must not be zero");
     object.finish();
     return camera;
 }
 
-std::string camera_json(const Camera& camera) {
-    auto number = [](float v) { return json(std::stod(fmt::format("{}", v))); }; // the shortest text that reads back
-    auto vector = [&](const glm::vec3& v) { return json::array({number(v.x), number(v.y), number(v.z)}); };
+std::string camera_json(const Camera& camera, const LoadedSpace& space) {
+    // The shortest text that reads back.
+    auto number = [](auto v) { return json(std::stod(fmt::format("{}", v))); };
+    auto direction = [&](const glm::vec3& v) { return json::array({number(v.x), number(v.y), number(v.z)}); };
+    auto place = [&](const glm::vec3& v) {
+        if (space == LoadedSpace{}) return direction(v);
+        const glm::dvec3 file = space.to_file(v);
+        return json::array({number(file.x), number(file.y), number(file.z)});
+    };
     nlohmann::ordered_json out;
-    out["position"] = vector(camera.position);
-    out["target"] = vector(camera.target);
-    out["up"] = vector(camera.up);
+    out["position"] = place(camera.position);
+    out["target"] = place(camera.target);
+    out["up"] = direction(camera.up);
     out["vfov_deg"] = number(glm::degrees(camera.vfov));
-    if (camera.near_plane > 0) out["near"] = number(camera.near_plane);
+    if (camera.near_plane > 0) out["near"] = number(float(camera.near_plane * space.unit));
     return out.dump();
 }
 
@@ -90,8 +105,9 @@ static void add_default_light(Shot& shot, const DefaultView& view) {
     if (dark_inside) {
         // Sunlight would not get in: a lamp in the upper middle, as bright as gives the far walls about 1 W/m².
         light.type = LightType::point;
-        light.intensity = glm::vec3(0.1f * bounds.diagonal() * bounds.diagonal());
-        node.translation = bounds.min + glm::vec3(0.5f, 0.7f, 0.5f) * bounds.size();
+        const double diagonal = bounds.diagonal() * shot.scene.space.unit;
+        light.intensity = glm::vec3(float(0.1 * diagonal * diagonal));
+        node.translation = shot.scene.space.to_file(bounds.min + glm::vec3(0.5f, 0.7f, 0.5f) * bounds.size());
     } else {
         light.type = LightType::directional;
         light.intensity = glm::vec3(3);
@@ -107,6 +123,8 @@ static void add_default_light(Shot& shot, const DefaultView& view) {
 
 void complete_shot(Shot& shot, bool has_camera, bool add_light) {
     float aspect = float(shot.width) / float(shot.height);
+    check_placement(shot.scene, shot.time);
+    if (has_camera) check_place(evaluate_shot(shot, 0).camera.position, "the shot's camera");
     SceneState state = evaluate_scene(shot.scene, shot.time, shot.time);
     bool lit = !shot.scene.lights.empty() || any_emission(shot.scene) || shot.environment.present();
     bool wants_view = !has_camera && state.cameras.empty();
@@ -118,7 +136,8 @@ void complete_shot(Shot& shot, bool has_camera, bool add_light) {
         Bounds bounds = scene_extent(shot.scene, shot.time, {&shot.camera, 1}).bounds;
         glm::vec3 forward = shot.camera.target - shot.camera.position;
         float ahead = bounds.empty() ? 1 : glm::dot(bounds.centre() - shot.camera.position, forward);
-        shot.camera.target = shot.camera.position + forward * std::max(ahead, 0.1f * bounds.diagonal());
+        float distance = std::max(ahead, 0.1f * bounds.diagonal());
+        shot.camera.target = shot.camera.position + forward * (distance > 0 ? distance : 1.0f);
     } else if (!has_camera) {
         shot.camera = view.camera;
         shot.scene.notes.push_back("neither the shot nor the file has a camera: a default view was chosen");

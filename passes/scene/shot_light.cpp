@@ -27,14 +27,14 @@ void read_light(const json& value, const std::string& where, ErrorList& errors, 
     bool path_aims = !node.path.empty() && node.path.keys.front().has_target;
     bool directional = light.type == LightType::directional;
     if (!directional && node.path.empty()) object.require("position", "where the light is, in metres");
-    node.translation = object.vector("position").value_or(glm::vec3(0));
+    node.translation = object.vector("position").value_or(glm::dvec3(0));
 
-    auto direction = object.vector("direction"), target = object.vector("target");
+    std::optional<glm::dvec3> direction = object.vector("direction"), target = object.vector("target");
     if (direction && target) errors.add(where + ": give a direction or a target, not both");
     if (light.type != LightType::point && !object.has("direction") && !object.has("target") && !path_aims)
         errors.add(object.at("direction") + " is missing: the way the light travels");
     if (target) direction = *target - node.translation;
-    if (direction && glm::length(*direction) == 0)
+    if (direction && *direction == glm::dvec3(0))
         errors.add(object.at(target ? "target" : "direction") + " gives no direction");
     if (direction) node.rotation = look_rotation(*direction, true);
 
@@ -85,36 +85,36 @@ Environment read_environment(const json& value, const std::filesystem::path& bas
     return out;
 }
 
-static std::optional<glm::quat> read_rotation(JsonObject& object) {
+static std::optional<glm::dquat> read_rotation(JsonObject& object) {
     const json* value = object.find("rotation");
     if (!value) return std::nullopt;
     if (auto degrees = json_vector(*value)) {
-        glm::vec3 angle = glm::radians(*degrees);
-        return glm::angleAxis(angle.z, glm::vec3(0, 0, 1)) * glm::angleAxis(angle.y, glm::vec3(0, 1, 0)) *
-               glm::angleAxis(angle.x, glm::vec3(1, 0, 0));
+        glm::dvec3 angle = glm::radians(*degrees);
+        return glm::angleAxis(angle.z, glm::dvec3(0, 0, 1)) * glm::angleAxis(angle.y, glm::dvec3(0, 1, 0)) *
+               glm::angleAxis(angle.x, glm::dvec3(1, 0, 0));
     }
     bool four = value->is_array() && value->size() == 4;
     for (const json& item : *value)
         four = four && item.is_number() && std::isfinite(item.get<float>());
     if (four) {
-        glm::quat q((*value)[3].get<float>(), (*value)[0].get<float>(), (*value)[1].get<float>(),
-                    (*value)[2].get<float>());
-        if (glm::length(q) > 1e-6f) return glm::normalize(q);
+        glm::dquat q((*value)[3].get<double>(), (*value)[0].get<double>(), (*value)[1].get<double>(),
+                     (*value)[2].get<double>());
+        if (glm::length(q) > 1e-6) return glm::normalize(q);
     }
     object.errors().add(object.at("rotation") + " must be 3 angles in degrees or a quaternion x, y, z, w, but is " +
                         json_kind(*value));
     return std::nullopt;
 }
 
-static glm::vec3 read_scale(JsonObject& object) {
+static glm::dvec3 read_scale(JsonObject& object) {
     const json* value = object.find("scale");
-    if (!value) return glm::vec3(1);
-    std::optional<glm::vec3> scale = json_vector(*value);
-    if (value->is_number() && std::isfinite(value->get<float>())) scale = glm::vec3(value->get<float>());
+    if (!value) return glm::dvec3(1);
+    std::optional<glm::dvec3> scale = json_vector(*value);
+    if (value->is_number() && std::isfinite(value->get<float>())) scale = glm::dvec3(value->get<double>());
     if (scale && scale->x * scale->y * scale->z != 0) return *scale;
     object.errors().add(object.at("scale") + " must be a number or an array of 3, none of them 0, but is " +
                         json_kind(*value));
-    return glm::vec3(1);
+    return glm::dvec3(1);
 }
 
 Node read_object(const json& value, const std::string& where, ErrorList& errors, std::string& scene_name) {
@@ -123,7 +123,7 @@ Node read_object(const json& value, const std::string& where, ErrorList& errors,
     scene_name = object.text("scene").value_or("");
     Node node;
     node.name = object.text("name").value_or(scene_name);
-    node.translation = object.vector("position").value_or(glm::vec3(0));
+    node.translation = object.vector("position").value_or(glm::dvec3(0));
     node.rotation = read_rotation(object).value_or(node.rotation);
     node.scale = read_scale(object);
     node.path = read_path(object, "path");

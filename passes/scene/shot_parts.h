@@ -9,8 +9,8 @@ namespace bounce {
 /// [{t, position, target}]: t in seconds, increasing; target in all keys or in none. Empty when absent or wrong.
 Path read_path(JsonObject& object, const char* key);
 
-/// {position, target, up, vfov_deg, near}
-Camera read_camera(const nlohmann::json& value, ErrorList& errors);
+/// {position, target, up, vfov_deg, near}, in the file's coordinates; the camera is in the loaded ones.
+Camera read_camera(const nlohmann::json& value, const LoadedSpace& space, ErrorList& errors);
 
 /// Adds one light of {name, type, position, direction | target, intensity, inner_cone_deg, outer_cone_deg, radius,
 /// angular_radius_deg, enabled, path} and the node that carries it.

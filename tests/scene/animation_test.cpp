@@ -117,14 +117,14 @@ TEST(Animation, ChildrenOfMovingNodesMove) {
 
 TEST(Path, IsLinearBetweenKeysAndHoldsOutside) {
     Path path{{{1, {0, 0, 0}, {0, 0, 9}, true}, {3, {2, 4, 0}, {2, 0, 9}, true}, {4, {2, 4, 8}, {2, 0, 9}, true}}};
-    EXPECT_EQ(path.at(0).position, glm::vec3(0));
-    EXPECT_EQ(path.at(2).position, glm::vec3(1, 2, 0));
-    EXPECT_EQ(path.at(2).target, glm::vec3(1, 0, 9));
-    EXPECT_EQ(path.at(3).position, glm::vec3(2, 4, 0));
-    EXPECT_EQ(path.at(3.5f).position, glm::vec3(2, 4, 4));
-    EXPECT_EQ(path.at(99).position, glm::vec3(2, 4, 8));
+    EXPECT_EQ(path.at(0).position, glm::dvec3(0));
+    EXPECT_EQ(path.at(2).position, glm::dvec3(1, 2, 0));
+    EXPECT_EQ(path.at(2).target, glm::dvec3(1, 0, 9));
+    EXPECT_EQ(path.at(3).position, glm::dvec3(2, 4, 0));
+    EXPECT_EQ(path.at(3.5f).position, glm::dvec3(2, 4, 4));
+    EXPECT_EQ(path.at(99).position, glm::dvec3(2, 4, 8));
     EXPECT_TRUE(path.at(99).has_target);
-    EXPECT_EQ(Path{}.at(1).position, glm::vec3(0));
+    EXPECT_EQ(Path{}.at(1).position, glm::dvec3(0));
 }
 
 TEST(Path, LookRotations) {

@@ -261,7 +261,7 @@ TEST_F(ShotTest, CameraJsonReadsBackExactly) {
     camera.up = {0, 0, 1};
     camera.vfov = glm::radians(47.3f);
     camera.near_plane = 0.3f;
-    std::string text = camera_json(camera);
+    std::string text = camera_json(camera, {});
     EXPECT_THAT(text, HasSubstr("0.1,"));
     Shot shot = load({{"scene", "triangle.gltf"}, {"camera", json::parse(text)}});
     EXPECT_EQ(shot.camera.position, camera.position);
