@@ -5,6 +5,7 @@
 #include "app/session.h"
 #include "app/timings.h"
 #include "core/error.h"
+#include "core/text.h"
 
 #include <algorithm>
 #include <cmath>
