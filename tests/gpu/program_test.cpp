@@ -38,6 +38,7 @@ TEST_F(Programs, TheLastGoodOneStays) {
     EXPECT_EQ(program.interface().local_size, glm::ivec3(4, 2, 1));
 
     folder.write("x.comp", "layout(local_size_x = 4) in;\nvoid main() { oops(); }\n");
+    program.files_changed();
     program.scan({}, {});
     EXPECT_FALSE(program.build({}));
     EXPECT_EQ(program.id(), good);
@@ -47,6 +48,7 @@ TEST_F(Programs, TheLastGoodOneStays) {
     EXPECT_EQ(program.interface().local_size, glm::ivec3(4, 2, 1)) << "of the program that runs";
 
     folder.write("x.comp", "layout(local_size_x = 8) in;\nvoid main() {}\n");
+    program.files_changed();
     program.scan({}, {});
     EXPECT_TRUE(program.build({}));
     EXPECT_NE(program.id(), 0u);
@@ -54,6 +56,7 @@ TEST_F(Programs, TheLastGoodOneStays) {
     EXPECT_EQ(program.interface().local_size.x, 8);
 
     EXPECT_FALSE([&] {
+        program.files_changed();
         program.scan({}, {});
         return program.build([](const ProgramInterface&) { return std::vector<std::string>{"not like this"}; });
     }()) << "the check of the interface may refuse it";
@@ -114,6 +117,7 @@ TEST_F(Programs, WhatCannotBeReadForTheMomentKeepsItsSlotsAndParameters) {
     program.scan({}, {});
     folder.remove("x.comp");
     for (int i = 0; i < 2; ++i) {
+        program.files_changed();
         program.scan({}, {});
         EXPECT_FALSE(program.errors().empty());
         EXPECT_EQ(program.slots().size(), 1u);
@@ -121,6 +125,7 @@ TEST_F(Programs, WhatCannotBeReadForTheMomentKeepsItsSlotsAndParameters) {
         EXPECT_THAT(program.files(), testing::ElementsAre(folder / "x.comp")) << "it is watched for";
     }
     folder.write("x.comp", "layout(local_size_x = 1) in;\nvoid main() {}\n");
+    program.files_changed();
     program.scan({}, {});
     EXPECT_TRUE(program.slots().empty());
     EXPECT_TRUE(program.parameters().empty());
