@@ -3,8 +3,8 @@
 
 #include "core/error.h"
 #include "core/input_file.h"
-#include "core/limits.h"
 #include "core/json_text.h"
+#include "core/limits.h"
 #include "reference/render.h"
 
 #include <cstring>
