@@ -128,6 +128,11 @@ void keep_coverage(const Image8& whole, std::vector<Image8>& levels, float cutof
                 border = code;
             }
         }
+        // Any code down to the next that is there does the same: the one nearest to the cutoff changes least.
+        size_t lower = border;
+        while (lower > 0 && (lower > 255 || lower == border || !count[lower]))
+            --lower;
+        border = std::clamp(first, lower + 1, border);
         for (size_t i = 3; i < level.rgba.size(); i += 4) {
             const int code = level.rgba[i];
             // `border` becomes the first code that passes; above it alphas keep their share of the way to 255.
