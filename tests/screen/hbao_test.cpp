@@ -259,7 +259,7 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, resolution))) return;
     // Near and far surface, and a pattern of 4 x 4 on each.
-    float near = world_position(pixel, max(texelFetch(gbuffer_depth, pixel, 0).r, 1.0e-6)).z > 0.5 ? 0.7 : 0.2;
+    float near = world_position(pixel, max(texelFetch(gbuffer_depth, pixel, 0).r, 1.0e-30)).z > 0.5 ? 0.7 : 0.2;
     imageStore(screen_occlusion, pixel, vec4(near + (float(pixel.x % 4 + 4 * (pixel.y % 4)) - 7.5) / 100.0));
 }
 )");
