@@ -67,7 +67,7 @@ bundle() {
     for name in $compiled_in; do copy_licence "$name" "$aside"; done
 
     cp -r "$root/glsl" "$root/assets" "$root/LICENSE" "$aside"
-    find "$aside/assets" \( -name '*.py' -o -name '__pycache__' -o -name generator -o -name readme -o -name charts \) -prune -exec rm -rf {} +
+    find "$aside/assets" \( -name '*.py' -o -name '__pycache__' -o -name generator -o -name readme -o -name charts -o -name results \) -prune -exec rm -rf {} +
     install -m 755 "$root/app/bundle_start.sh" "$aside/bounce"
     describe_bundle "$aside" >"$aside/about.txt"
 

@@ -211,17 +211,13 @@ class Structure {
         for (const auto& [name, size] : variables) {
             size_t equals = name + 1;
             dimensions(equals);
-            auto value = text(equals) == "="
-                             ? constant({equals + 1, std::min(find_outside(equals, ",;"), range.second)})
-                             : std::nullopt;
-            if (value && is_const)
-                constants_[text(name)] = *value;
-            else
-                constants_.erase(text(name));
-            if (value)
+            constants_.erase(text(name));
+            initial_.erase(text(name));
+            if (text(equals) != "=") continue;
+            if (const auto value = constant({equals + 1, std::min(find_outside(equals, ",;"), range.second)})) {
+                if (is_const) constants_[text(name)] = *value;
                 initial_[text(name)] = *value;
-            else
-                initial_.erase(text(name));
+            }
             account(name, size, storage);
         }
         // The result of a function that is only named here.

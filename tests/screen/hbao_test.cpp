@@ -215,9 +215,12 @@ TEST_F(Hbao, NothingBeyondDmaxCountsAndAllOfItBelow) {
             for (int x = 0; x < k_size; x += 5) {
                 size_t i = size_t(y * k_size + x);
                 Hit at = seen(scene, x, y);
-                if (!std::isinf(at.distance) && at.normal.y > 0.5 && at.position.z > 1.02 * reach)
+                if (!std::isinf(at.distance) && at.normal.y > 0.5 && at.position.z > 1.02 * reach) {
                     ASSERT_NEAR(pictures.open_dmax[i], 1, 1e-4) << x << " " << y << " " << d_max;
-                if (std::atof(d_max) == 5) ASSERT_NEAR(pictures.open_dmax[i], pictures.open[i], 1e-5);
+                }
+                if (std::atof(d_max) == 5) {
+                    ASSERT_NEAR(pictures.open_dmax[i], pictures.open[i], 1e-5);
+                }
             }
         }
         double sum = 0, sum_before = 0;
