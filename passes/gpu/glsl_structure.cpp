@@ -213,10 +213,10 @@ class Structure {
             dimensions(equals);
             constants_.erase(text(name));
             initial_.erase(text(name));
-            if (text(equals) != "=") continue;
-            if (const auto value = constant({equals + 1, std::min(find_outside(equals, ",;"), range.second)})) {
-                if (is_const) constants_[text(name)] = *value;
-                initial_[text(name)] = *value;
+            if (text(equals) == "=") {
+                const auto value = constant({equals + 1, std::min(find_outside(equals, ",;"), range.second)});
+                if (value) initial_[text(name)] = *value;
+                if (value && is_const) constants_[text(name)] = *value;
             }
             account(name, size, storage);
         }
