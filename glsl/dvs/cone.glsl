@@ -17,7 +17,7 @@ uniform sampler3D dvs_previous;
 #else
 #define DVS_BASE dvs_base
 #endif
-uniform int direction_weights = 0;    //! {squared, absolute} weights of the three volumes: d_k², or |d_k| (right for directional leaves)
+uniform int direction_weights = 0;    //! {squared, absolute} weights of the three volumes: d_k², or abs(d_k) (right for directional leaves)
 uniform float ambient_decay = 0.1;    //! [0, 10] (1/voxel) λ, how fast occlusion fades with the cone's radius
 uniform bool hit_then_sample = false; //! static the colour is looked up once a cone, where it is blocked
 uniform bool exact_hits = false;      //! static hit_then_sample: the hit is found from voxel to voxel instead of by a thin cone

@@ -130,7 +130,7 @@ class Pictures(ProgramTest):
         for key in ("renderer", "commit", "size", "camera", "frame"):
             self.assertIn(key, metadata)
         self.render("n.exr", "--resource", "gbuffer.normal")
-        self.assertTrue(all(c.startswith("gbuffer.normal.") for c in exr_header(self.out / "n.exr")[0]))
+        self.assertLessEqual(set(exr_header(self.out / "n.exr")[0]), set("RGBA"))
         self.render("s.exr", "--resource", "shadow.depth")
         self.render("n.png", "--resource", "gbuffer.normal")
 
