@@ -109,7 +109,7 @@ TEST(Scenes, Sibenik) {
     Shot shot = load_shot(file.string());
     SceneFacts facts = shot_facts(shot);
     EXPECT_EQ(facts.triangles, 75284u);
-    EXPECT_EQ(facts.point_lights, 1u); // sunlight would not get in
+    EXPECT_EQ(facts.point_lights, 1u);      // sunlight would not get in
     EXPECT_GT(facts.blended_materials, 0u); // its glass
     // Normal maps without authored tangents: made, unit and orthogonal.
     for (const Vertex& v : shot.scene.vertices) {
