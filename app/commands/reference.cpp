@@ -8,6 +8,7 @@
 #include "core/scanner.h"
 #include "core/text.h"
 #include "reference/reference_image.h"
+#include "scene/describe.h"
 
 #include <algorithm>
 #include <atomic>
@@ -17,6 +18,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <spdlog/spdlog.h>
 #include <tuple>
 #include <unistd.h>
 
@@ -160,6 +162,8 @@ int reference(ReferenceArguments arguments) {
     arguments.settings.occlusion_falloff = occlusion_falloff(arguments.occlusion_falloff);
     Shot shot = load_shot(arguments.shot);
     apply_size(arguments.size, shot);
+    // Lengths that are shares of the diagonal leave strays out: say so, as the other commands do.
+    if (const std::string strays = describe_strays(shot_facts(shot)); !strays.empty()) spdlog::warn("{}", strays);
     if (!arguments.material_model.empty()) shot.material_model = material_model_named(arguments.material_model);
 
     ReferenceGoal goal;
