@@ -26,7 +26,7 @@ struct Window::Native {
         int key, scancode, modifiers;
     };
     std::vector<int> pressed;      ///< keys since the last frame
-    std::vector<Release> released; ///< of those: ImGui hears of it after the frame, or it would miss a short press
+    std::vector<Release> released; ///< of those: told to ImGui after the frame, or it would miss a short press
     bool fullscreen = false;
     glm::ivec2 windowed_position{0}, windowed_size{1280, 720};
 };
@@ -336,13 +336,14 @@ void Window::begin_frame() {
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
     native_->pressed.clear();
-    for (const Native::Release& key : std::exchange(native_->released, {})) {
-        ImGui_ImplGlfw_KeyCallback(native_->handle, key.key, key.scancode, GLFW_RELEASE, key.modifiers);
-    }
 }
 
 void Window::end_frame() {
     ImGui::Render();
+    // Not between NewFrame and the widgets: they compare the modifiers with those that the frame began with.
+    for (const Native::Release& key : std::exchange(native_->released, {})) {
+        ImGui_ImplGlfw_KeyCallback(native_->handle, key.key, key.scancode, GLFW_RELEASE, key.modifiers);
+    }
     glm::ivec2 pixels = framebuffer_size();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, pixels.x, pixels.y);

@@ -145,6 +145,7 @@ fs::path find_shot(const std::string& name) {
         if (!name.empty() && fs::is_regular_file(candidate, ignored)) return candidate;
     if (fs::path(name).extension() == ".json")
         throw Error("no shot '" + name + "'" + did_you_mean(fs::path(name).stem().string(), asset_names("shots")));
+    if (is_gltf(name)) return find_scene(name, ".");
     try {
         return find_scene(name, ".");
     } catch (const Error& error) {
