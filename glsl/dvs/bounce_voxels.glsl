@@ -28,13 +28,13 @@ vec3 gathered(VoxelGrid grid, ivec3 voxel, vec3 n) {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < cone_count(cone_set, spiral_cones); ++i) {
         vec4 cone = cone_of(cone_set, spiral_cones, i, part);
-        sum += cone.w * trace_cone(grid, apex, frame * cone.xyz, diameter).colour;
+        sum += cone.w * trace_cone(grid, apex, frame * cone.xyz, diameter, 0.0).colour;
     }
     return sum;
 }
 
 void bounce_voxel() {
-    VoxelGrid grid = directional_grid();
+    VoxelGrid grid = cone_grid();
     ivec3 voxel;
     if (occupied_only) {
         uint index = listed_index();

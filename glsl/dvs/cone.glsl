@@ -34,9 +34,7 @@ uniform float hit_radius = 1.0;       //! [0.25, 16] (voxels) hit_then_sample: r
 uniform sampler3D dvs_directional; // six tiles; from the base level on, or from half the resolution
 #endif
 
-float start_share = 0.0; // how much of its first step a cone leaves out
-
-VoxelGrid directional_grid() {
+VoxelGrid cone_grid() {
     int size = textureSize(dvs_base, 0).x;
 #ifdef DVS_WITHOUT_DIRECTIONS
     return voxel_grid(size, 1, 1, 0);
@@ -120,12 +118,13 @@ void add_sphere(inout Traced cone, VoxelGrid grid, vec4 value, float d) {
     cone.ambient_occlusion += (1.0 - cone.ambient_occlusion) * alpha / (1.0 + ambient_decay * 0.5 * d / grid.voxel);
 }
 
-Traced trace_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter) {
+// `start_share`: how much of its first step the cone leaves out.
+Traced trace_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter, float start_share) {
     Traced cone = Traced(vec3(0.0), 0.0, 0.0);
     if (hit_then_sample && exact_hits) {
-        VoxelHit hit = traverse(grid, apex + start_offset * grid.voxel * direction, direction, 0.0);
+        VoxelHit hit = find_blocking_voxel(grid, apex + start_offset * grid.voxel * direction, direction, 0.0);
         if (hit.t < 0.0) return cone;
-        cone.colour = colour_of_side(DVS_BASE, hit.voxel, met_front);
+        cone.colour = colour_of_side(DVS_BASE, hit.voxel, hit.walk.front);
         cone.occlusion = 1.0;
         cone.ambient_occlusion = 1.0 / (1.0 + ambient_decay * 0.5 * diameter * hit.t / grid.voxel);
         return cone;
@@ -161,6 +160,10 @@ Traced trace_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter) {
         t += cone_step * d;
     }
     return cone;
+}
+
+vec3 light_along_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diameter) {
+    return trace_cone(grid, start.apex, direction, diameter, 0.0).colour;
 }
 
 #endif

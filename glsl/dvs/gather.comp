@@ -27,20 +27,20 @@ void main() {
         imageStore(dvs_irradiance, texel, vec4(0.0));
         return;
     }
-    VoxelGrid grid = directional_grid();
+    VoxelGrid grid = cone_grid();
     vec3 n = normalize(texelFetch(gbuffer_normal, pixel, 0).xyz);
     vec3 face = normalize(texelFetch(gbuffer_geometric_normal, pixel, 0).xyz);
-    vec3 surface = world_position(pixel, depth), apex = surface + normal_offset * grid.voxel * face;
+    ConeStart start = cone_start(grid, world_position(pixel, depth), face);
     mat3 frame = frame_around(n);
     float diameter = 2.0 * tan(radians(0.5 * aperture));
     float part = interleaved_part(texel, interleave);
-    if (dithered_start) start_share = interleaved_part(texel, 4);
+    float start_share = dithered_start ? interleaved_part(texel, 4) : 0.0;
     vec4 sum = vec4(0.0);
     for (int i = 0; i < cone_count(cone_set, spiral_cones); ++i) {
         vec4 cone = cone_of(cone_set, spiral_cones, i, part);
         vec3 direction = frame * cone.xyz;
-        Traced traced = hit_lookup == 1 ? trace_walked_cone(grid, surface, face, apex, direction, diameter)
-                                        : trace_cone(grid, apex, direction, diameter);
+        Traced traced = hit_lookup == 1 ? trace_walked_cone(grid, start, direction, diameter)
+                                        : trace_cone(grid, start.apex, direction, diameter, start_share);
         sum += cone.w * vec4(traced.colour, traced.ambient_occlusion);
     }
     imageStore(dvs_irradiance, texel, vec4(min(sum.rgb, vec3(65504.0)), 1.0 - sum.a));

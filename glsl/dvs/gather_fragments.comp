@@ -1,7 +1,7 @@
 // averaging = gather: each voxel that is new on the list goes through the triangles that may lie in it, and sums their
 // fragments itself. No other invocation writes its sums, so that there are no atomics, and the sums are those of `sum`.
 // A dispatch goes through 8 boxes of 4,096 triangles, so that none loops 65,536 times.
-#include "voxel/triangle_voxels.glsl"
+#include "voxel/scene_triangles.glsl"
 #include "dvs/list.glsl"
 #include "dvs/fixed_point.glsl"
 #include "dvs/triangle_fragment.glsl"
@@ -15,8 +15,6 @@ layout(std430) buffer voxels_sums { uint sums[]; };
 uniform uint kind;
 uniform int first_box; // of 4,096 triangles
 uniform float emission_scale;
-
-void visit_voxel(VisitedTriangle triangle, ivec3 voxel) {}
 
 bool box_meets(int at, ivec3 voxel) {
     vec3 low = bounds[2 * at].xyz, high = bounds[2 * at + 1].xyz; // touching counts

@@ -1,7 +1,7 @@
 // The attributes of each voxel that is new on the list: means of what its fragments left. average: the packed means;
 // last_writer: the surface of the one triangle whose number stayed; sum and gather: sums over their count. Into the flag volume go the
 // leaves: six bits, one for each way that a surface in the voxel faces.
-#include "voxel/triangle_voxels.glsl"
+#include "voxel/scene_triangles.glsl"
 #include "dvs/list.glsl"
 #include "dvs/fixed_point.glsl"
 #include "dvs/triangle_fragment.glsl"
@@ -22,8 +22,6 @@ uniform int averaging;
 uniform float emission_scale;
 uniform bool planes; // the mean plane goes into voxels.normal
 uniform float plane_coherence = 0.8; //! [0.3, 1] planes: the length of the averaged normal from which a voxel has a plane
-
-void visit_voxel(VisitedTriangle triangle, ivec3 voxel) {}
 
 vec3 unpack_mean(uint bits) {
     return vec3(bits & 255u, (bits >> 8) & 255u, (bits >> 16) & 255u) / 255.0;

@@ -1,5 +1,5 @@
 // One level of the boxes around triangles (dvs/triangle_bounds.glsl), in voxel units.
-#include "voxel/triangle_voxels.glsl"
+#include "voxel/scene_triangles.glsl"
 #include "dvs/triangle_bounds.glsl"
 
 layout(local_size_x = 64) in;
@@ -7,8 +7,6 @@ layout(local_size_x = 64) in;
 layout(std430) buffer voxels_triangle_bounds { vec4 bounds[]; };
 
 uniform int level;
-
-void visit_voxel(VisitedTriangle triangle, ivec3 voxel) {}
 
 void main() {
     int i = int(gl_GlobalInvocationID.y * k_row + gl_GlobalInvocationID.x);

@@ -1,6 +1,6 @@
 #ifndef DVS_TRIANGLE_FRAGMENT_GLSL
 #define DVS_TRIANGLE_FRAGMENT_GLSL
-// What a triangle's surface is inside a voxel, found without a rasterizer. Include voxel/triangle_voxels.glsl first.
+// What a triangle's surface is inside a voxel, found without a rasterizer. Include voxel/scene_triangles.glsl first.
 #include "dvs/voxel_fragment.glsl"
 
 VoxelFragment fragment_of(VisitedTriangle t, ivec3 voxel) {

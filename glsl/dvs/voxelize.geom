@@ -17,7 +17,7 @@ in Corner {
     vec4 colour;
 } corner[];
 flat in uint corner_material[];
-flat in int corner_draw[];
+flat in uint corner_draw[];
 
 out Surface {
     vec3 normal;
@@ -69,7 +69,7 @@ void main() {
         surface.uv = corner[0].uv + share.x * (corner[1].uv - corner[0].uv) + share.y * (corner[2].uv - corner[0].uv);
         surface.colour = corner[0].colour + share.x * (corner[1].colour - corner[0].colour) + share.y * (corner[2].colour - corner[0].colour);
         surface_material = corner_material[0];
-        surface_draw = uint(corner_draw[0]);
+        surface_draw = corner_draw[0];
         surface_triangle = draw_starts[corner_draw[0]] + uint(gl_PrimitiveIDIn);
         surface_a = a;
         surface_b = b;

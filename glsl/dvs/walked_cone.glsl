@@ -8,11 +8,9 @@
 uniform sampler3D dvs_radiance;    //! optional
 uniform sampler3D voxels_emission; //! optional
 
-VoxelHit blocking_voxel; // the last one that find_blocker found
-
 Blocker find_blocker(VoxelGrid grid, vec3 apex, vec3 direction, float from) {
-    blocking_voxel = traverse(grid, apex, direction, from);
-    return Blocker(blocking_voxel.t, blocking_voxel.leaves);
+    VoxelHit hit = find_blocking_voxel(grid, apex, direction, from);
+    return Blocker(hit.t, hit.leaves, hit.voxel);
 }
 
 // What a voxel's side sends on but for what the lights' own light makes it send.
@@ -24,16 +22,16 @@ vec3 colour_without_lights(ivec3 voxel, bool front) {
     return colour;
 }
 
-Traced trace_walked_cone(VoxelGrid grid, vec3 surface, vec3 face, vec3 apex, vec3 direction, float diameter) {
-    WalkedHit hit = walk_to_hit(grid, surface, face, apex, direction);
+Traced trace_walked_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diameter) {
+    WalkedHit hit = walk_to_hit(grid, start, direction);
     Traced cone = Traced(vec3(0.0), 0.0, 0.0);
     if (hit.t < 0.0) return cone;
-    ivec3 voxel = blocking_voxel.voxel;
+    ivec3 voxel = hit.voxel;
     uint flags = 0u;
     // What a map's texel shows lies beside its voxel where that ends nearer than a texel is exact.
     const float k_beside[5] = float[](0.0, 0.5, -0.5, 1.0, -1.0);
     for (int i = 0; hit.met && i < 5 && flags == 0u; ++i) {
-        vec3 at = (surface + hit.t * direction - grid.origin) / grid.voxel + k_beside[i] * direction;
+        vec3 at = (start.surface + hit.t * direction - grid.origin) / grid.voxel + k_beside[i] * direction;
         voxel = clamp(ivec3(floor(at)), ivec3(0), ivec3(grid.resolution - 1));
         flags = texelFetch(voxels_flags, voxel, 0).r;
     }

@@ -21,28 +21,25 @@ uniform float near_diameter = 0.5;   //! [0.05, 2] (voxels) of these spheres
 
 uniform int hit_lookup = 0; //! {layers, map} light at the hit: a sphere in the layers, or a walk over the shadow maps
 
-// Where voxels block the cone; below 0: nowhere. `came_in`, `leaves`: where the voxels that do begin and end along it.
-float find_lit_hit(VoxelGrid grid, vec3 apex, vec3 direction, float from, out float came_in, out float leaves) {
-    if (exact_hits) return find_exact_hit(grid, apex, direction, from, came_in, leaves);
-    came_in = find_hit_from(grid, apex, direction, 2.0 * tan(radians(0.5 * hit_aperture)), hit_threshold, from);
-    leaves = came_in;
-    return came_in;
+// Where voxels block the cone, from `from` metres on.
+OccludedAt find_lit_hit(VoxelGrid grid, vec3 apex, vec3 direction, float from) {
+    if (exact_hits) return find_exact_hit(grid, apex, direction, from);
+    float t = find_hit_from(grid, apex, direction, 2.0 * tan(radians(0.5 * hit_aperture)), hit_threshold, from);
+    return OccludedAt(t, t, t);
 }
 
 Blocker find_blocker(VoxelGrid grid, vec3 apex, vec3 direction, float from) {
-    Blocker blocker;
-    float hit = find_lit_hit(grid, apex, direction, from, blocker.enters, blocker.leaves);
-    if (hit < 0.0) blocker.enters = -1.0;
-    return blocker;
+    OccludedAt hit = find_lit_hit(grid, apex, direction, from);
+    return Blocker(hit.t < 0.0 ? -1.0 : hit.enters, hit.leaves, ivec3(0));
 }
 
-// Radiance along the cone, and in a its occlusion. `diameter`: 2·tan(θ/2), metres a metre. The cone starts at `apex`, off
-// the surface at `surface`: what lies between is too near for voxels to tell it from the surface itself. near_spheres look
-// the maps up there: what is lit and faces the surface counts, and blocks, by the share of the sphere that it covers.
-vec4 trace_lit_cone(VoxelGrid grid, vec3 surface, vec3 face, vec3 apex, vec3 direction, float diameter) {
-    vec3 light = vec3(0.0);
+// Radiance along the cone, and in a its occlusion. `diameter`: 2·tan(θ/2), metres a metre. near_spheres
+// look the maps up between the surface and the apex: what is lit and faces the surface counts, and blocks, by the share of
+// the sphere that it covers.
+vec4 trace_lit_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diameter) {
+    vec3 light = vec3(0.0), surface = start.surface, apex = start.apex;
     if (hit_then_sample && hit_lookup == 1) {
-        WalkedHit hit = walk_to_hit(grid, surface, face, apex, direction);
+        WalkedHit hit = walk_to_hit(grid, start, direction);
         if (hit.t < 0.0) return vec4(0.0);
         if (hit.met) SEE_SPHERE(true, surface + hit.t * direction, hit.t, grid.voxel, 1.0, 0.0, 1.0, hit.light);
         return vec4(hit.light, 1.0);
@@ -61,7 +58,7 @@ vec4 trace_lit_cone(VoxelGrid grid, vec3 surface, vec3 face, vec3 apex, vec3 dir
             SEE_SPHERE(false, surface + t * direction, t, d, blocked, 0.0, open * blocked, open * sum);
             open *= 1.0 - blocked;
         }
-        float came_in, leaves, hit = find_lit_hit(grid, apex, direction, max(start_offset, 1.0e-3) * grid.voxel, came_in, leaves);
+        float hit = find_lit_hit(grid, apex, direction, max(start_offset, 1.0e-3) * grid.voxel).t;
         if (hit < 0.0) return vec4(light, 1.0 - open);
         float radius = max(hit_radius * grid.voxel, 0.5 * diameter * hit);
         for (int view = 0; view < views.length(); ++view)
@@ -87,6 +84,10 @@ vec4 trace_lit_cone(VoxelGrid grid, vec3 surface, vec3 face, vec3 apex, vec3 dir
         t += cone_step * d;
     }
     return vec4(light, occlusion);
+}
+
+vec3 light_along_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diameter) {
+    return trace_lit_cone(grid, start, direction, diameter).rgb;
 }
 
 #endif

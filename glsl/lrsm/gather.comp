@@ -10,7 +10,7 @@ layout(FORMAT_lrsm_irradiance) writeonly uniform image2D lrsm_irradiance;
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(lrsm_irradiance);
     if (any(greaterThanEqual(texel, size))) return;
-    VoxelGrid grid = occlusion_grid();
+    VoxelGrid grid = cone_grid();
     GatherPoint point;
     if (!gather_point(grid, texel, gather_pixel(texel, size), point)) {
         imageStore(lrsm_irradiance, texel, vec4(0.0));

@@ -15,9 +15,7 @@ uniform int interleave = 1;     //! [1, 8] (texels) neighbours in blocks of n ×
 uniform float aperture = 60.0;  //! [1, 90] (degrees) of each cone, from side to side
 
 struct GatherPoint {
-    vec3 surface; // world
-    vec3 face;    // its plane's normal
-    vec3 apex;    // of the cones, off the surface
+    ConeStart start;
     mat3 frame; // of the surface's normal
     float part; // see interleaved_part
 };
@@ -33,9 +31,7 @@ bool gather_point(VoxelGrid grid, ivec2 texel, ivec2 pixel, out GatherPoint poin
     if (depth <= 0.0) return false;
     vec3 n = normalize(texelFetch(gbuffer_normal, pixel, 0).xyz);
     vec3 face = normalize(texelFetch(gbuffer_geometric_normal, pixel, 0).xyz);
-    point.surface = world_position(pixel, depth);
-    point.face = face;
-    point.apex = point.surface + normal_offset * grid.voxel * face;
+    point.start = cone_start(grid, world_position(pixel, depth), face);
     point.frame = frame_around(n);
     point.part = interleaved_part(texel, interleave);
     return true;
@@ -49,7 +45,7 @@ int gather_cone_count() {
 vec4 gather_cone(VoxelGrid grid, GatherPoint point, int i, float diameter, out vec4 cone) {
     cone = cone_of(cone_set, spiral_cones, i, point.part);
     cone.xyz = point.frame * cone.xyz;
-    return trace_lit_cone(grid, point.surface, point.face, point.apex, cone.xyz, diameter);
+    return trace_lit_cone(grid, point.start, cone.xyz, diameter);
 }
 
 #endif

@@ -38,7 +38,7 @@ void main() {
     ivec2 size = textureSize(lrsm_irradiance, 0);
     ivec2 texel = clamp(ivec2(pixel * vec2(size)), ivec2(0), size - 1);
     ivec2 at = gather_pixel(texel, size);
-    VoxelGrid grid = occlusion_grid();
+    VoxelGrid grid = cone_grid();
     GatherPoint point;
     bool surface = gather_point(grid, texel, at, point);
     int count = surface ? gather_cone_count() : 0;
@@ -55,5 +55,5 @@ void main() {
     for (int k = 0; k < count; ++k)
         sum += weighted[k];
     vec4 summed = surface ? vec4(sum.rgb, 1.0 - sum.a) : vec4(0.0);
-    inspected = InspectedPixel(at, texel, surface ? point.apex : vec3(0.0), count, summed, texelFetch(lrsm_irradiance, texel, 0));
+    inspected = InspectedPixel(at, texel, surface ? point.start.apex : vec3(0.0), count, summed, texelFetch(lrsm_irradiance, texel, 0));
 }

@@ -42,7 +42,7 @@ void main() {
     if (any(greaterThanEqual(pixel, resolution))) return;
     float depth = texelFetch(gbuffer_depth, pixel, 0).r, sum = 0.0;
     if (depth > 0.0) {
-        VoxelGrid grid = occlusion_grid();
+        VoxelGrid grid = cone_grid();
         vec3 n = normalize(texelFetch(gbuffer_normal, pixel, 0).xyz);
         vec3 face = normalize(texelFetch(gbuffer_geometric_normal, pixel, 0).xyz);
         vec3 apex = world_position(pixel, depth) + normal_offset * grid.voxel * face;

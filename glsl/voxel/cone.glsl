@@ -13,7 +13,7 @@ bool occlusion_is_bits() {
     return textureSize(voxels_bricks, 0) == textureSize(voxels_occlusion, 0); // the neutral one has a single texel
 }
 
-VoxelGrid occlusion_grid() {
+VoxelGrid cone_grid() {
     ivec3 size = textureSize(voxels_occlusion, 0);
     int leaves = size.z / size.x, finer = occlusion_is_bits() ? 1 : 0;
     // A single voxel of a leaf still shows in four mips of eight bits, one of a mean in two.

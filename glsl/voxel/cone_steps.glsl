@@ -2,11 +2,11 @@
 #define VOXEL_CONE_STEPS_GLSL
 // How cones walk through voxels (Crassin et al. 2011; LRSM, section 3.1; DVS, section VIII): a cone is a row of spheres; the
 // sphere at distance t has diameter d = 2·t·tan(θ/2), at least a voxel, and is looked up at mip log2(d/voxel); the next one
-// lies cone_step·d farther. Whoever includes this file says what a sphere's occlusion is.
+// lies cone_step·d farther. What a sphere's occlusion is, the cone source says.
 #ifndef SEE_STEP // what a view of the cones is told of each step toward a hit
 #define SEE_STEP(centre, t, diameter, alpha, level)
 #endif
-#include "lib/voxel_grid.glsl"
+#include "voxel/cone_source.glsl"
 
 uniform float cone_step = 0.5;         //! [0.05, 2] the step from sphere to sphere as a share of their diameter (β)
 uniform float start_offset = 1.0;      //! [0, 16] (voxels) how far along the cone the first sphere lies
@@ -14,16 +14,6 @@ uniform float normal_offset = 1.0;     //! [0, 16] (voxels) how far the apex is 
 uniform float opacity_exponent = 1.0;  //! [0.1, 2] α' = 1 − (1 − α)^e for each sphere: 1 as published
 uniform int most_steps = 128;          //! [1, 512] spheres a cone, at most
 uniform float reach = 1.0;             //! [0.01, 2] how far cones go, as a share of the scene's diagonal
-
-struct VoxelGrid {
-    vec3 origin; // metres
-    float side;
-    float voxel; // metres
-    int resolution;
-    int leaves;    // 1, or 6
-    int mips;      // that the volume has
-    int skip_mips; // the coarsest mip in which a single voxel still shows
-};
 
 VoxelGrid voxel_grid(int grid_resolution, int leaves, int mips, int skip_mips) {
     VoxelGrid grid;
@@ -35,6 +25,10 @@ VoxelGrid voxel_grid(int grid_resolution, int leaves, int mips, int skip_mips) {
     grid.mips = mips;
     grid.skip_mips = min(skip_mips, mips - 1);
     return grid;
+}
+
+ConeStart cone_start(VoxelGrid grid, vec3 surface, vec3 face) {
+    return ConeStart(surface, face, surface + normal_offset * grid.voxel * face);
 }
 
 bool outside_grid(VoxelGrid grid, vec3 position) {
@@ -49,9 +43,6 @@ float sphere_level(VoxelGrid grid, float diameter) {
 float corrected_opacity(float alpha) {
     return opacity_exponent == 1.0 ? alpha : 1.0 - pow(1.0 - alpha, opacity_exponent);
 }
-
-// α of a sphere, as seen along `direction`; 0 outside the grid.
-float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float level);
 
 // Where a thin cone is blocked: the distance at which its occlusion passes `threshold`; below 0: it is not. Steps of
 // cone_step·d, d = diameter·t, at least a voxel; the first sphere lies at `start`. Empty space is crossed by coarser mips: where the eight texels around a

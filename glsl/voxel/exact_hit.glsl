@@ -5,13 +5,15 @@
 // voxels around a plane is one voxel deep along the plane's axis, and the plane lies in its middle on average: at ½, for
 // every angle.
 #include "voxel/cone.glsl"
-#include "voxel/traverse.glsl"
 
 uniform float hit_threshold = 0.5; //! [0.05, 0.99] occlusion that blocks the cone; exact_hits: the hit's depth in voxels
 
-float depth_in_voxels; // so far, without a gap
-float run_start;       // where the ray came into them; voxel units
-float run_hit;         // where they block
+struct WalkState {
+    float depth;  // in voxels that block, so far, without a gap
+    float enters; // where the ray came into them; voxel units
+    float hit;    // where they block
+};
+
 
 // 1 where the voxel blocks along a leaf.
 float base_occlusion(VoxelGrid grid, ivec3 voxel, int leaf) {
@@ -34,14 +36,14 @@ float cube_occlusion(VoxelGrid grid, ivec3 voxel, vec3 direction, int mip) {
     return sum;
 }
 
-int empty_width(VoxelGrid grid, ivec3 voxel, vec3 direction) {
+int empty_width(VoxelGrid grid, ivec3 voxel, vec3 direction, inout WalkState walk) {
     // In coarser mips than skip_mips a single voxel no longer shows.
-    if (grid.skip_mips >= 4 && cube_occlusion(grid, voxel, direction, 4) <= 0.0) return depth_in_voxels = 0.0, 16;
-    if (grid.skip_mips >= 2 && cube_occlusion(grid, voxel, direction, 2) <= 0.0) return depth_in_voxels = 0.0, 4;
+    if (grid.skip_mips >= 4 && cube_occlusion(grid, voxel, direction, 4) <= 0.0) return walk.depth = 0.0, 16;
+    if (grid.skip_mips >= 2 && cube_occlusion(grid, voxel, direction, 2) <= 0.0) return walk.depth = 0.0, 4;
     return 0;
 }
 
-bool voxel_blocks(VoxelGrid grid, ivec3 voxel, vec3 origin, vec3 direction, float t, float leaves) {
+bool voxel_blocks(VoxelGrid grid, ivec3 voxel, vec3 origin, vec3 direction, float t, float leaves, inout WalkState walk) {
     float rate = 0.0;
     if (grid.leaves == 1) {
         rate = base_occlusion(grid, voxel, 0) > 0.5 ? 1.0 : 0.0;
@@ -50,24 +52,30 @@ bool voxel_blocks(VoxelGrid grid, ivec3 voxel, vec3 origin, vec3 direction, floa
             if (base_occlusion(grid, voxel, facing_leaf(direction, axis)) > 0.5) rate = max(rate, abs(direction[axis]));
     }
     if (rate <= 0.0) {
-        depth_in_voxels = 0.0;
+        walk.depth = 0.0;
         return false;
     }
     SEE_STEP(grid.origin + grid.voxel * (origin + t * direction), t * grid.voxel, grid.voxel, rate, 0.0);
-    if (depth_in_voxels <= 0.0) run_start = t;
-    float before = depth_in_voxels;
-    depth_in_voxels += max(leaves - t, 0.0) * rate;
-    run_hit = t + (hit_threshold - before) / rate;
-    return depth_in_voxels >= hit_threshold;
+    if (walk.depth <= 0.0) walk.enters = t;
+    float before = walk.depth;
+    walk.depth += max(leaves - t, 0.0) * rate;
+    walk.hit = t + (hit_threshold - before) / rate;
+    return walk.depth >= hit_threshold;
 }
 
-// From `from` metres on; below 0: nothing blocks. `came_in`: where the ray came into the voxels that block it.
-float find_exact_hit(VoxelGrid grid, vec3 apex, vec3 direction, float from, out float came_in, out float leaves) {
-    depth_in_voxels = 0.0;
-    VoxelHit hit = traverse(grid, apex, direction, from);
-    leaves = hit.leaves;
-    came_in = run_start * grid.voxel;
-    return hit.t < 0.0 ? -1.0 : run_hit * grid.voxel;
+#include "voxel/traverse.glsl"
+
+// Where voxels block a ray, in metres; t below 0: nowhere.
+struct OccludedAt {
+    float t;
+    float enters; // where the ray comes into the voxels that block it
+    float leaves; // where it leaves the last of them
+};
+
+// From `from` metres on.
+OccludedAt find_exact_hit(VoxelGrid grid, vec3 apex, vec3 direction, float from) {
+    VoxelHit hit = traverse(grid, apex, direction, from, WalkState(0.0, 0.0, 0.0));
+    return OccludedAt(hit.t < 0.0 ? -1.0 : hit.walk.hit * grid.voxel, hit.walk.enters * grid.voxel, hit.leaves);
 }
 
 #endif

@@ -1,81 +1,21 @@
 #ifndef VOXEL_TRIANGLE_VOXELS_GLSL
 #define VOXEL_TRIANGLE_VOXELS_GLSL
-// Visits exactly the voxels that each triangle overlaps (lib/triangle_box.glsl), without a rasterizer. Sixteen invocations
-// share a triangle and take the columns along its dominant axis in turn (so that none loops 65,536 times at 512³, where
-// some software drivers cut loops off). Alpha is looked up at the voxel's middle.
-// Whoever includes this file defines visit_voxel (and SKIP_VOXEL, if some are left out), and calls visit_triangles from a
-// group of 256.
+// Visits exactly the voxels that each triangle overlaps, without a rasterizer. Sixteen invocations share a triangle and take
+// the columns along its dominant axis in turn (so that none loops 65,536 times at 512³, where some software drivers cut
+// loops off). A shader includes this file, defines visit_voxel (before, SKIP_VOXEL, if some are left out), and calls
+// visit_triangles from a group of 256.
 #ifndef SKIP_VOXEL
 #define SKIP_VOXEL(voxel) false
 #endif
-#define SCENE_DRAWS
-#define SCENE_MATERIALS
-#define SCENE_GEOMETRY
-#include "lib/scene.glsl"
-#include "lib/triangle_box.glsl"
-#include "lib/voxel_grid.glsl"
-#include "lib/scene_textures.glsl"
-#include "lib/coverage.glsl"
+#include "voxel/scene_triangles.glsl"
 
-// The first triangle of each draw, in order; one more entry at the end.
-layout(std430) readonly buffer voxels_draw_starts { uint draw_starts[]; };
-#define DRAW_START(i) draw_starts[i]
-#include "lib/draw_of_triangle.glsl"
-
-uniform int resolution_of_grid;
-
-const int k_lanes = 16;    // invocations a triangle
-const uint k_row = 65536u; // triangles in a row of the dispatch
+const int k_lanes = 16; // invocations a triangle
 
 vec2 plane_of(vec3 p, int axis) {
     return axis == 0 ? p.yz : (axis == 1 ? p.zx : p.xy);
 }
 ivec3 unproject(ivec2 plane, int depth, int axis) {
     return axis == 0 ? ivec3(depth, plane) : (axis == 1 ? ivec3(plane.y, depth, plane.x) : ivec3(plane, depth));
-}
-
-// What is needed to find the voxels; the rest is loaded where one is found (triangles of one voxel leave most lanes idle).
-struct VisitedTriangle {
-    uint index; // over all draws
-    int draw;
-    uint first; // of its indices
-    uint material;
-    vec3 positions[3]; // voxel units
-};
-
-VisitedTriangle load_triangle(uint triangle, int draw_count) {
-    VisitedTriangle t;
-    t.index = triangle;
-    t.draw = draw_of(triangle, draw_count);
-    t.first = draws[t.draw].first_index + 3u * (triangle - draw_starts[t.draw]);
-    t.material = draws[t.draw].material;
-    mat4 world = draws[t.draw].world;
-    for (int i = 0; i < 3; ++i)
-        t.positions[i] = world_to_voxel((world * vec4(vertices[indices[t.first + uint(i)]].position_u.xyz, 1.0)).xyz, resolution_of_grid);
-    return t;
-}
-
-Vertex[3] corners_of(VisitedTriangle t) {
-    return Vertex[3](vertices[indices[t.first]], vertices[indices[t.first + 1u]], vertices[indices[t.first + 2u]]);
-}
-
-// The plane's normal, on the authored normals' side; 0 for a triangle without area.
-vec3 facing_of(VisitedTriangle t, Vertex corners[3]) {
-    vec3 normal = cross(t.positions[1] - t.positions[0], t.positions[2] - t.positions[0]);
-    float size = length(normal);
-    if (!(size > 0.0)) return vec3(0.0);
-    vec3 authored = corners[0].normal_v.xyz + corners[1].normal_v.xyz + corners[2].normal_v.xyz;
-    return dot(normal, mat3(draws[t.draw].normal_matrix) * authored) < 0.0 ? -normal / size : normal / size;
-}
-
-// Whether the triangle has a surface in the voxel: it overlaps, and is not cut away by its alpha there.
-bool triangle_fills(VisitedTriangle t, ivec3 voxel) {
-    if (!triangle_overlaps_voxel(t.positions[0], t.positions[1], t.positions[2], voxel)) return false;
-    Material material = materials[t.material];
-    if (!alpha_matters(material)) return true;
-    float alpha = alpha_at(material, corners_of(t), t.positions, vec3(voxel) + 0.5);
-    int axis = dominant_axis(cross(t.positions[1] - t.positions[0], t.positions[2] - t.positions[0]));
-    return surface_is_there(material, alpha, voxel_place(voxel, axis, uint(t.draw)));
 }
 
 void visit_voxel(VisitedTriangle triangle, ivec3 voxel);

@@ -2,7 +2,7 @@
 #define VOXEL_WALK_TO_HIT_GLSL
 // Where a ray from a surface is blocked, and how that is lit: voxels say that something is there, reflective shadow maps say
 // exactly where, and what it sends back. Next to the surface, where voxels cannot tell what is near from the surface itself,
-// the ray walks over the maps alone. Whoever includes this file says what the voxels block.
+// the ray walks over the maps alone. What the voxels block, find_blocker says; whoever includes this file defines it.
 #include "surface/map_walk.glsl"
 #include "voxel/cone_steps.glsl"
 
@@ -15,6 +15,7 @@ uniform int map_tries = 4;      //! [1, 16] hit_lookup map: hits that are tried 
 struct Blocker {
     float enters;
     float leaves;
+    ivec3 voxel; // the one that blocks, where the source tells it
 };
 
 // The first one from `from` metres on.
@@ -24,15 +25,17 @@ struct WalkedHit {
     float t;    // metres from the surface; below 0: nothing blocks
     bool met;   // by the maps; else by voxels alone, which no light reaches
     vec3 light; // that it sends back, of what the maps hold
+    ivec3 voxel; // of the last blocker
 };
 
-// The ray starts at `surface`, whose plane faces `face`; the voxels' ray at `apex`, normal_offset voxels off it.
-WalkedHit walk_to_hit(VoxelGrid grid, vec3 surface, vec3 face, vec3 apex, vec3 direction) {
+// The maps are walked from the surface on, the voxels from the apex.
+WalkedHit walk_to_hit(VoxelGrid grid, ConeStart start_point, vec3 direction) {
+    vec3 surface = start_point.surface, face = start_point.face;
     float same_place = 0.5 * grid.voxel, met, walked = map_near * grid.voxel;
     vec3 light;
     bool in_light;
     if (map_near > 0.0 && walk_maps(surface, face, direction, 0.0, walked, same_place, met, light, in_light))
-        return WalkedHit(met, true, light);
+        return WalkedHit(met, true, light, ivec3(0));
     // A ray from an apex off the surface reaches a plane that faces the surface so much earlier than the ray from the
     // surface itself.
     float lag = normal_offset * grid.voxel / max(dot(face, direction), 0.25);
@@ -40,17 +43,17 @@ WalkedHit walk_to_hit(VoxelGrid grid, vec3 surface, vec3 face, vec3 apex, vec3 d
     if (map_near > 0.0 && in_light) start = max(start, walked);
     Blocker blocker;
     for (int i = 0; i < map_tries; ++i) {
-        blocker = find_blocker(grid, apex, direction, start);
-        if (blocker.enters < 0.0) return WalkedHit(-1.0, false, vec3(0.0));
+        blocker = find_blocker(grid, start_point.apex, direction, start);
+        if (blocker.enters < 0.0) return WalkedHit(-1.0, false, vec3(0.0), ivec3(0));
         float from = max(blocker.enters - map_before * grid.voxel, walked);
         float to = max(blocker.leaves + map_after * grid.voxel + lag, walked);
         if (to <= walked) break;
         if (walk_maps(surface, face, direction, from, to, same_place, met, light, in_light))
-            return WalkedHit(met, true, light);
+            return WalkedHit(met, true, light, blocker.voxel);
         if (!in_light) break;
         start = walked = to;
     }
-    return WalkedHit(blocker.enters, false, vec3(0.0));
+    return WalkedHit(blocker.enters, false, vec3(0.0), blocker.voxel);
 }
 
 #endif

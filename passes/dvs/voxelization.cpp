@@ -14,7 +14,7 @@ class VoxelizationPass : public Pass {
         for (const char* name : {"mark", "voxelize", "compact", "finish_list", "clear_dynamic", "forget_dynamic",
                                  "resolve", "triangle_bounds", "gather_fragments"})
             description.program(name, {std::string("dvs/") + name + ".comp"});
-        description.program("raster", {"dvs/voxelize.vert", "dvs/voxelize.geom", "dvs/voxelize.frag"});
+        description.program("raster", {"voxel/voxelize.vert", "dvs/voxelize.geom", "dvs/voxelize.frag"});
         for (const char* name :
              {"resolution_of_grid", "operation", "kind", "emission_scale", "triangle_count", "level", "first_box"})
             description.constant(name);

@@ -10,7 +10,7 @@ namespace bounce {
 class OcclusionVoxelsPass : public Pass {
   public:
     void describe(PassDescription& description) override {
-        description.program("raster", {"voxel/occlusion.vert", "voxel/occlusion.geom", "voxel/occlusion.frag"});
+        description.program("raster", {"voxel/voxelize.vert", "voxel/occlusion.geom", "voxel/occlusion.frag"});
         description.program("compute", {"voxel/occlusion.comp"});
         description.program("bits", {"voxel/occlusion_bits.comp"});
         description.program("brick_mip", {"voxel/brick_mip.comp"});

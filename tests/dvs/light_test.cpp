@@ -242,7 +242,7 @@ void main() {
     if (gl_GlobalInvocationID.x >= 4u) return;
     int i = int(gl_GlobalInvocationID.x);
     vec3 direction = normalize(vec3(float(i & 1) - 0.5, 0.3, float(i >> 1) - 0.4));
-    Traced cone = trace_cone(directional_grid(), 0.5 * (scene_min + scene_max), direction, 0.001);
+    Traced cone = trace_cone(cone_grid(), 0.5 * (scene_min + scene_max), direction, 0.001, 0.0);
     imageStore(test_result, ivec2(i, 0), vec4(cone.colour.gb, cone.occlusion, cone.ambient_occlusion));
 }
 )");

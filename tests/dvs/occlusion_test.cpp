@@ -221,7 +221,7 @@ void main() {
     int i = int(gl_GlobalInvocationID.x);
     if (i >= 5) return;
     vec3 middle = 0.5 * (scene_min + scene_max);
-    imageStore(test_result, ivec2(i, 0), sphere_value(directional_grid(), middle, normalize(vec3(1.0, 2.0, -3.0)), 0.375 * float(i)));
+    imageStore(test_result, ivec2(i, 0), sphere_value(cone_grid(), middle, normalize(vec3(1.0, 2.0, -3.0)), 0.375 * float(i)));
 }
 )");
     SceneRunner run(floor_and_plate(), {directional_light({0, -1, 0}, {1, 1, 1})}, graph_file(R"("resources":{

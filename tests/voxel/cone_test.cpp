@@ -77,7 +77,7 @@ vec3 on_sphere(int i) {{
 void main() {{
     int i = int(gl_GlobalInvocationID.x);
     if (i >= imageSize(test_result).x) return;
-    VoxelGrid grid = occlusion_grid();
+    VoxelGrid grid = cone_grid();
     vec4 result = vec4(0.0);
     {}
     imageStore(test_result, ivec2(i, 0), result);
@@ -184,10 +184,9 @@ TEST_F(Cones, NothingBlocksInAnEmptyGrid) {
             glm::vec4 result : samples(
                 256, "0.0",
                 R"(vec3 apex = vec3(hashed(uint(i) * 8u + 2u), hashed(uint(i) * 8u + 3u), hashed(uint(i) * 8u + 4u)) * 2.0 - 1.0;
-                    float came_in, leaves;
                     result = vec4(find_hit(grid, apex, on_sphere(i), 0.05, 0.5),
                                   sphere_occlusion(grid, apex, on_sphere(i), 6.0 * hashed(uint(i) * 8u + 5u)),
-                                  find_exact_hit(grid, apex, on_sphere(i), 0.0, came_in, leaves), 0.0);)",
+                                  find_exact_hit(grid, apex, on_sphere(i), 0.0).t, 0.0);)",
                 leaves)) {
             EXPECT_LT(result.x, 0);
             EXPECT_EQ(result.y, 0);
@@ -227,10 +226,10 @@ TEST_F(Cones, EveryThinConeIsBlockedWhereItMeetsAThinWall) {
 TEST_F(Cones, EveryExactHitLiesInsideAThinWall) {
     for (bool leaves : {false, true}) {
         std::vector<glm::vec4> got = samples(2048, k_room, FROM_INSIDE R"(
-               float came_in, leaves, hit = find_exact_hit(grid, apex, d, 0.0, came_in, leaves);
-               vec3 at = abs(apex + hit * d), in_at = abs(apex + came_in * d);
-               result = vec4(hit, max(at.x, max(at.y, at.z)) / grid.voxel, max(in_at.x, max(in_at.y, in_at.z)) / grid.voxel,
-                             leaves - came_in);)",
+               OccludedAt hit = find_exact_hit(grid, apex, d, 0.0);
+               vec3 at = abs(apex + hit.t * d), in_at = abs(apex + hit.enters * d);
+               result = vec4(hit.t, max(at.x, max(at.y, at.z)) / grid.voxel, max(in_at.x, max(in_at.y, in_at.z)) / grid.voxel,
+                             hit.leaves - hit.enters);)",
                                              leaves);
         for (const glm::vec4& result : got) {
             ASSERT_GE(result.x, 0) << (leaves ? "six leaves" : "isotropic");
@@ -249,7 +248,7 @@ TEST_F(Cones, ExactHitsLieHalfAVoxelDeepAlongTheLeafThatBlocks) {
         2048, "v.x == 20 && leaf == 1 ? 1.0 : 0.0", // leaf 1 faces −x: it blocks what goes along +x
         R"(vec3 apex = (vec3(hashed(uint(i) * 8u + 2u), hashed(uint(i) * 8u + 3u), hashed(uint(i) * 8u + 4u)) - 0.5) * 0.5;
            vec3 d = on_sphere(i);
-           float came_in, leaves, hit = find_exact_hit(grid, apex, d, 0.0, came_in, leaves);
+           float hit = find_exact_hit(grid, apex, d, 0.0).t;
            vec3 at = (apex + (hit < 0.0 ? 0.0 : hit) * d) / grid.voxel;
            result = vec4(hit, at.x, d.x, 0.0);)",
         true);
@@ -272,9 +271,9 @@ TEST_F(Cones, ExactHitsGoOnFromWhereTheyAreTold) {
         512, "v.x == 10 || v.x == 24 ? 1.0 : 0.0",
         R"(vec3 d = normalize(vec3(1.0, 0.5 * hashed(uint(i) * 8u + 2u) - 0.25, 0.5 * hashed(uint(i) * 8u + 3u) - 0.25));
            vec3 apex = vec3(-0.9, 0.0, 0.0);
-           float came_in, leaves, first = find_exact_hit(grid, apex, d, 0.0, came_in, leaves);
-           float second = find_exact_hit(grid, apex, d, first + 2.0 * grid.voxel, came_in, leaves);
-           float third = find_exact_hit(grid, apex, d, second + 2.0 * grid.voxel, came_in, leaves);
+           float first = find_exact_hit(grid, apex, d, 0.0).t;
+           float second = find_exact_hit(grid, apex, d, first + 2.0 * grid.voxel).t;
+           float third = find_exact_hit(grid, apex, d, second + 2.0 * grid.voxel).t;
            result = vec4((apex + first * d).x, (apex + second * d).x, third, grid.voxel);)",
         false);
     for (const glm::vec4& result : got) {

@@ -1,4 +1,4 @@
-// Transforms the scene into voxel units.
+// Transforms the scene into voxel units, for every voxelization by the rasterizer.
 #define SCENE_DRAWS
 #include "lib/scene.glsl"
 #include "lib/vertex.glsl"
@@ -13,7 +13,7 @@ out Corner {
     vec4 colour;
 } corner;
 flat out uint corner_material;
-flat out int corner_draw;
+flat out uint corner_draw;
 
 void main() {
     Draw draw = draws[gl_BaseInstance];
