@@ -1,8 +1,8 @@
 // Images survive a round trip through their files, and a write that fails leaves nothing behind.
 
-#include "core/error.h"
 #include "core/exr_file.h"
 #include "core/image.h"
+#include "support/errors.h"
 
 #include <ImfChannelList.h>
 #include <ImfInputFile.h>
@@ -40,16 +40,6 @@ Image gradient(int width, int height, int channels) {
     for (size_t i = 0; i < image.pixels.size(); ++i)
         image.pixels[i] = 0.37f * float(i) - 3.0f;
     return image;
-}
-
-template <class Action>
-std::string error_of(Action&& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "";
 }
 
 } // namespace

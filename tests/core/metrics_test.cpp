@@ -1,7 +1,7 @@
 // Every figure against values worked out by hand on images of a few pixels.
 
-#include "core/error.h"
 #include "core/metrics.h"
+#include "support/errors.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -16,16 +16,6 @@ Image grey(std::vector<float> values, int width) {
     Image image(width, int(values.size()) / width, 1);
     image.pixels = std::move(values);
     return image;
-}
-
-template <class Action>
-std::string error_of(Action&& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "";
 }
 
 } // namespace

@@ -2,35 +2,19 @@
 // and the bounce with voxels, the gather with pixels. Google Benchmark fits a line through the times (BigO: the cost of
 // one; RMS: how far from a line they lie). Times are what the graph's own timers tell, medians of a few frames; with
 // BOUNCE_CPU_TIME in the environment processor time.
-#include "app/hosts/headless.h"
-#include "app/session.h"
+#include "support/pass_cost.h"
 #include "support/temp_folder.h"
 #include "support/waves.h"
-
-#include <benchmark/benchmark.h>
 
 using namespace bounce;
 
 namespace {
 
-/// Milliseconds of the passes `ids` together, everything voxelized in each frame.
+/// Everything is voxelized in each frame.
 double measure(const std::string& shot, glm::ivec2 size, int resolution, const std::vector<std::string>& ids) {
-    SessionOptions options;
-    options.shot = shot;
-    options.graph = "dvs";
-    options.size = size;
-    options.sets = {{"voxelization.resolution", std::to_string(resolution)}, {"voxelization.static_once", "false"}};
-    Session session(options);
-    for (int frame = 0; frame < 5; ++frame) {
-        if (frame == 2) session.graph().forget_timings(); // compiled and warm
-        session.render();
-        session.advance();
-    }
-    session.graph().finish_timings();
-    double ms = 0;
-    for (const std::string& id : ids)
-        ms += session.graph().timing(id).median;
-    return ms;
+    return pass_cost(shot, "dvs", size,
+                     {{"voxelization.resolution", std::to_string(resolution)}, {"voxelization.static_once", "false"}},
+                     ids);
 }
 
 void voxelization_by_triangles(benchmark::State& state) {
@@ -56,9 +40,6 @@ void gather_by_pixels(benchmark::State& state) {
     state.SetComplexityN(int64_t(side) * side);
 }
 
-void as_lines(benchmark::internal::Benchmark* b) {
-    b->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond)->Complexity(benchmark::oN);
-}
 void resolutions(benchmark::internal::Benchmark* b) {
     b->RangeMultiplier(2)->Range(32, 256);
     as_lines(b);
@@ -73,8 +54,5 @@ BENCHMARK_CAPTURE(by_voxels, bounce, {"voxel_bounce"})->Apply(resolutions);
 BENCHMARK(gather_by_pixels)->DenseRange(64, 256, 64)->Apply(as_lines);
 
 int main(int argc, char** argv) {
-    benchmark::Initialize(&argc, argv);
-    HeadlessContext context;
-    benchmark::RunSpecifiedBenchmarks();
-    return 0;
+    return run_benchmarks(argc, argv);
 }

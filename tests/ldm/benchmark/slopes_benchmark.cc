@@ -2,41 +2,18 @@
 // plane, finer and finer); ambient occlusion with maps and with pixels; photon tracing and splatting with photons.
 // Google Benchmark fits a line through the times (BigO: the cost of one; RMS: how far from a line they lie). Times are
 // what the graph's own timers tell; with BOUNCE_CPU_TIME in the environment processor time.
-#include "app/hosts/headless.h"
-#include "app/session.h"
+#include "support/pass_cost.h"
 #include "support/waves.h"
-
-#include <benchmark/benchmark.h>
 
 using namespace bounce;
 
 namespace {
 
-using Sets = std::vector<std::pair<std::string, std::string>>;
-
-/// Milliseconds of a pass.
-double measure(const std::string& shot, const std::string& graph, glm::ivec2 size, const Sets& sets,
-               const std::string& id) {
-    SessionOptions options;
-    options.shot = shot;
-    options.graph = graph;
-    options.size = size;
-    options.sets = sets;
-    Session session(options);
-    for (int frame = 0; frame < 5; ++frame) {
-        if (frame == 2) session.graph().forget_timings(); // compiled, grown and warm
-        session.render(frame < 2);
-        session.advance();
-    }
-    session.graph().finish_timings();
-    return session.graph().timing(id).median;
-}
-
 void by_maps(benchmark::State& state, const std::string& id) {
     std::string maps = std::to_string(state.range(0));
     for (auto _ : state)
         state.SetIterationTime(
-            measure("cornell", "ldm_ao", {64, 64}, {{"ldm.maps", maps}, {"ldm.resolution", "50"}}, id) * 1e-3);
+            pass_cost("cornell", "ldm_ao", {64, 64}, {{"ldm.maps", maps}, {"ldm.resolution", "50"}}, {id}) * 1e-3);
     state.SetComplexityN(state.range(0));
 }
 
@@ -44,7 +21,7 @@ void construction_by_texels(benchmark::State& state) {
     std::string side = std::to_string(state.range(0));
     for (auto _ : state)
         state.SetIterationTime(
-            measure("cornell", "ldm_ao", {16, 16}, {{"ldm.maps", "64"}, {"ldm.resolution", side}}, "ldm") * 1e-3);
+            pass_cost("cornell", "ldm_ao", {16, 16}, {{"ldm.maps", "64"}, {"ldm.resolution", side}}, {"ldm"}) * 1e-3);
     state.SetComplexityN(state.range(0) * state.range(0));
 }
 
@@ -53,15 +30,15 @@ void construction_by_triangles(benchmark::State& state) {
     std::string shot = waves(folder, int(state.range(0)));
     for (auto _ : state)
         state.SetIterationTime(
-            measure(shot, "ldm_ao", {16, 16}, {{"ldm.maps", "16"}, {"ldm.resolution", "50"}}, "ldm") * 1e-3);
+            pass_cost(shot, "ldm_ao", {16, 16}, {{"ldm.maps", "16"}, {"ldm.resolution", "50"}}, {"ldm"}) * 1e-3);
     state.SetComplexityN(2 * state.range(0) * state.range(0));
 }
 
 void occlusion_by_pixels(benchmark::State& state) {
     int side = int(state.range(0));
     for (auto _ : state)
-        state.SetIterationTime(measure("cornell", "ldm_ao", glm::ivec2(side),
-                                       {{"ldm.maps", "64"}, {"ldm.resolution", "50"}}, "ambient_occlusion") *
+        state.SetIterationTime(pass_cost("cornell", "ldm_ao", glm::ivec2(side),
+                                         {{"ldm.maps", "64"}, {"ldm.resolution", "50"}}, {"ambient_occlusion"}) *
                                1e-3);
     state.SetComplexityN(int64_t(side) * side);
 }
@@ -69,14 +46,11 @@ void occlusion_by_pixels(benchmark::State& state) {
 void by_photons(benchmark::State& state, const std::string& id) {
     std::string side = std::to_string(state.range(0));
     for (auto _ : state)
-        state.SetIterationTime(measure("cornell", "ldm_indirect_tuned", {64, 64},
-                                       {{"ldm.maps", "32"}, {"ldm.resolution", "50"}, {"rsm.resolution", side}}, id) *
+        state.SetIterationTime(pass_cost("cornell", "ldm_indirect_tuned", {64, 64},
+                                         {{"ldm.maps", "32"}, {"ldm.resolution", "50"}, {"rsm.resolution", side}},
+                                         {id}) *
                                1e-3);
     state.SetComplexityN(32 * state.range(0) * state.range(0));
-}
-
-void as_lines(benchmark::internal::Benchmark* b) {
-    b->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond)->Complexity(benchmark::oN);
 }
 
 } // namespace
@@ -90,8 +64,5 @@ BENCHMARK_CAPTURE(by_photons, tracing, "photons")->DenseRange(32, 128, 32)->Appl
 BENCHMARK_CAPTURE(by_photons, splatting, "splat")->DenseRange(32, 128, 32)->Apply(as_lines);
 
 int main(int argc, char** argv) {
-    benchmark::Initialize(&argc, argv);
-    HeadlessContext context;
-    benchmark::RunSpecifiedBenchmarks();
-    return 0;
+    return run_benchmarks(argc, argv);
 }
