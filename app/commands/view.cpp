@@ -1,7 +1,7 @@
 // bounce view: the window.
 #include "app/commands/command.h"
 #include "app/commands/session_options.h"
-#include "app/ui/viewer_app.h"
+#include "app/viewer/viewer_app.h"
 #include "core/error.h"
 #include "core/scanner.h"
 

@@ -2,7 +2,7 @@
 // The camera by mouse and keys: fly, turn about a surface, slide, dolly. It knows nothing of windows: it is told what
 // the pointer did over the picture.
 
-#include "app/panels/panel.h"
+#include "app/ui/panel_context.h"
 
 namespace bounce {
 

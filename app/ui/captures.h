@@ -1,7 +1,7 @@
 #pragma once
 // Pictures of the window's session as files: one, or a numbered sequence.
 
-#include "app/panels/panel.h"
+#include "app/ui/panel_context.h"
 
 namespace bounce {
 

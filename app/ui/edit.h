@@ -1,7 +1,7 @@
 #pragma once
 // Edits of scene values that can be undone: from press to release of the mouse is one step.
 
-#include "app/panels/panel.h"
+#include "app/ui/panel_context.h"
 
 #include <imgui.h>
 #include <memory>

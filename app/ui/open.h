@@ -1,7 +1,7 @@
 #pragma once
 // Opening shots, scenes and graphs from the window.
 
-#include "app/panels/panel.h"
+#include "app/ui/panel_context.h"
 
 namespace bounce {
 

@@ -1,7 +1,7 @@
 #pragma once
 // A shot file of what the window shows, so that a picture can be made again without the window.
 
-#include "app/panels/panel.h"
+#include "app/ui/panel_context.h"
 
 #include <filesystem>
 

@@ -1,8 +1,8 @@
 #pragma once
 // One line at the bottom: the renderer, what a frame costs, the notice, shader errors.
 
-#include "app/panels/panel.h"
 #include "app/ui/layout.h"
+#include "app/ui/panel_context.h"
 #include "gpu/capabilities.h"
 
 namespace bounce {

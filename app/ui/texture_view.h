@@ -2,7 +2,7 @@
 // A picture of any texture of the graph: one mip of one layer or slice, one channel or all, mapped from a range to 8
 // bits.
 
-#include "app/panels/panel.h"
+#include "app/ui/panel_context.h"
 #include "gpu/program.h"
 
 #include <map>

@@ -1,5 +1,5 @@
 // What was done, and can be taken back.
-#include "app/panels/panel.h"
+#include "app/ui/undo.h"
 
 namespace bounce {
 

@@ -1,7 +1,7 @@
 #pragma once
 // Where named widgets lie in the window, and what the window shows, as a file: tests drive the real window by it.
 
-#include "app/panels/panel.h"
+#include "app/ui/panel_context.h"
 
 #include <filesystem>
 #include <string>

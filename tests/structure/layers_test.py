@@ -19,6 +19,9 @@ BELOW_TECHNIQUES = {
 # Any other folder of passes/ is a technique.
 TECHNIQUE = {"core", "gpu", "scene", "graph", "surface", "voxel"}
 
+# Folders of app/ that one another build on, lowest first: none includes what stands after it.
+WINDOW = ("app/ui", "app/panels", "app/viewer")
+
 # Who may include the headers that start so.
 ONLY_IN = {
     "GLFW/": re.compile(r"app/hosts/window[^/]*\.cpp"),
@@ -58,6 +61,10 @@ def violations(root, sources):
                 if name.startswith(prefix) and not places.fullmatch(source.as_posix()):
                     found.append(f"{source} includes {name}, which only {places.pattern} may")
             target = resolve(root, source, name)
+            places = [str(file.parent) for file in (source, target) if file]
+            if all(place in WINDOW for place in places) and [WINDOW.index(place) for place in places] != sorted(
+                    (WINDOW.index(place) for place in places), reverse=True):
+                found.append(f"{source} includes {name}: {places[0]} stands below {places[1]}")
             target_layer = layer_of(target) if target else None
             if target_layer and layer != "app" and target_layer not in allowed:
                 found.append(f"{source} includes {name}: {layer} may use only {', '.join(sorted(allowed))}")
@@ -74,7 +81,8 @@ class Layers(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
             for path in ("passes/core/a.h", "passes/gpu/a.h", "passes/scene/a.h", "passes/graph/a.h", "passes/voxel/a.h",
-                         "passes/surface/a.h", "passes/lrsm/a.h", "passes/dvs/a.h", "passes/reference/a.h", "app/a.h"):
+                         "passes/surface/a.h", "passes/lrsm/a.h", "passes/dvs/a.h", "passes/reference/a.h", "app/a.h", "app/ui/a.h",
+                         "app/panels/a.h", "app/viewer/a.h"):
                 (root / path).parent.mkdir(parents=True, exist_ok=True)
                 (root / path).write_text("#pragma once\n")
             path = pathlib.Path(source)
@@ -92,13 +100,16 @@ class Layers(unittest.TestCase):
                              ("passes/reference/b.cpp", "gpu/a.h"), ("passes/lrsm/b.cpp", "app/a.h"),
                              ("passes/gpu/b.cpp", "EGL/egl.h"), ("app/hosts/window.cpp", "EGL/egl.h"),
                              ("app/hosts/headless.cpp", "GLFW/glfw3.h"), ("app/panels/b.cpp", "GLFW/glfw3.h"),
-                             ("passes/graph/b.cpp", "imgui.h")):
+                             ("passes/graph/b.cpp", "imgui.h"), ("app/ui/b.cpp", "app/panels/a.h"),
+                             ("app/panels/b.cpp", "app/viewer/a.h"), ("app/ui/b.h", "app/viewer/a.h")):
             self.check(source, name, ok=False)
 
     def test_the_checker_lets_pass_what_points_down(self):
         for source, name in (("passes/core/b.cpp", "a.h"), ("passes/core/b.cpp", "core/a.h"), ("passes/core/b.cpp", "vector"),
                              ("passes/graph/b.cpp", "scene/a.h"), ("passes/lrsm/b.cpp", "voxel/a.h"),
                              ("passes/lrsm/deep/b.cpp", "lrsm/a.h"), ("passes/reference/b.cpp", "scene/a.h"),
+                             ("app/panels/b.cpp", "app/ui/a.h"),
+                             ("app/viewer/b.cpp", "app/panels/a.h"), ("app/viewer/b.cpp", "app/ui/a.h"),
                              ("app/b.cpp", "lrsm/a.h"), ("app/b.cpp", "reference/a.h"), ("app/panels/b.cpp", "imgui.h"),
                              ("app/hosts/window_keys.cpp", "GLFW/glfw3.h"), ("app/hosts/headless.cpp", "EGL/egl.h")):
             self.check(source, name, ok=True)

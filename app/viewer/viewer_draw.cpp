@@ -1,10 +1,11 @@
 // The panels in their places.
+#include "app/panels/panel.h"
 #include "app/ui/edit.h"
 #include "app/ui/imgui_stack.h"
 #include "app/ui/status_bar.h"
 #include "app/ui/style.h"
-#include "app/ui/viewer_app.h"
 #include "app/ui/widget_rects.h"
+#include "app/viewer/viewer_app.h"
 #include "core/problem.h"
 
 #include <fmt/format.h>

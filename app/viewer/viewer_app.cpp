@@ -1,4 +1,4 @@
-#include "app/ui/viewer_app.h"
+#include "app/viewer/viewer_app.h"
 #include "app/ui/live_comparison.h"
 
 #include "app/capture.h"

@@ -2,7 +2,7 @@
 #include "app/ui/captures.h"
 #include "app/ui/open.h"
 #include "app/ui/shot_writer.h"
-#include "app/ui/viewer_app.h"
+#include "app/viewer/viewer_app.h"
 
 #include <algorithm>
 #include <fmt/format.h>

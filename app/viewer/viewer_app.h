@@ -1,5 +1,5 @@
 #pragma once
-// The program with a window: one loop that hears events, renders when something changed, and draws the panels.
+// The program with a window: one loop that handles events, renders when something changed, and draws the panels.
 
 #include "app/hosts/window.h"
 #include "app/ui/keys.h"

@@ -4,7 +4,7 @@
 #include "app/ui/live_comparison.h"
 #include "app/ui/open.h"
 #include "app/ui/style.h"
-#include "app/ui/viewer_app.h"
+#include "app/viewer/viewer_app.h"
 #include "core/log.h"
 #include "core/problem.h"
 
