@@ -6,7 +6,7 @@
 uniform int mip_rule = 0; //! {front_to_back, mean} how eight voxels become one; mean is isotropic, front_to_back as published
 
 vec4 directional_mean(vec4 children[8], int leaf) {
-    if (mip_rule == 1) {
+    if (mip_rule == mip_rule_mean) {
         vec4 all = vec4(0.0);
         for (int i = 0; i < 8; ++i)
             all += children[i];

@@ -54,7 +54,7 @@ vec4 directional_value(VoxelGrid grid, vec3 at, vec3 direction, float level) {
     // Inside its own tile: half a voxel of the coarser of the two mips away from the next one.
     float margin = min(0.5 * exp2(ceil(level)) / float(size), 0.5);
     vec3 inside = clamp(at, vec3(margin), vec3(1.0 - margin));
-    vec3 weight = direction_weights == 0 ? direction * direction : abs(direction);
+    vec3 weight = direction_weights == direction_weights_squared ? direction * direction : abs(direction);
     vec4 sum = vec4(0.0);
     for (int axis = 0; axis < 3; ++axis) {
         int leaf = 2 * axis + (direction[axis] > 0.0 ? 1 : 0); // a surface that faces −axis blocks what goes along +axis

@@ -66,7 +66,7 @@ float ray_visibility(vec3 from, vec3 l, float distance, float voxel, int size) {
         ivec3 at = ivec3(floor(p + t * l));
         if (any(lessThan(at, ivec3(0))) || any(greaterThanEqual(at, ivec3(size)))) break;
         if (texelFetch(voxels_flags, at, 0).r == 0u) continue;
-        if (occlusion == 1) return 0.0;
+        if (occlusion == occlusion_ray_hard) return 0.0;
         occluded += (1.0 - occluded) * min(kappa / t, 1.0);
         if (occluded > 0.99) return 0.0;
     }
@@ -79,13 +79,13 @@ vec3 voxel_light(ivec3 voxel, vec3 n, vec3 albedo, int size) {
     for (int i = 0; i < light_count; ++i) {
         vec3 l;
         vec3 irradiance = light_irradiance(lights[i], centre, l);
-        float cosine = attenuation == 0 ? max(dot(n, l), 0.0) : normal_weighted(texelFetch(voxels_normal, voxel, 0).xyz, n, l);
+        float cosine = attenuation == attenuation_lambert ? max(dot(n, l), 0.0) : normal_weighted(texelFetch(voxels_normal, voxel, 0).xyz, n, l);
         if (cosine <= 0.0 || max(irradiance.r, max(irradiance.g, irradiance.b)) <= 0.0) continue;
         vec3 moved = centre + n * (shadow_shift * width);
         float seen = 1.0;
-        if (occlusion == 0) {
+        if (occlusion == occlusion_shadow_map) {
             seen = map_visibility(lights[i], moved, n, width);
-        } else if (occlusion < 3) {
+        } else if (occlusion != occlusion_none) {
             bool far = lights[i].type == k_light_directional;
             float distance = far ? 4.0 * side : length(lights[i].position - centre);
             seen = ray_visibility(centre - voxel_grid_origin(side), l, distance, width, size);

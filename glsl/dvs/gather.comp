@@ -39,7 +39,7 @@ void main() {
     for (int i = 0; i < cone_count(cone_set, spiral_cones); ++i) {
         vec4 cone = cone_of(cone_set, spiral_cones, i, part);
         vec3 direction = frame * cone.xyz;
-        Traced traced = hit_lookup == 1 ? trace_walked_cone(grid, start, direction, diameter)
+        Traced traced = hit_lookup == hit_lookup_map ? trace_walked_cone(grid, start, direction, diameter)
                                         : trace_cone(grid, start.apex, direction, diameter, start_share);
         sum += cone.w * vec4(traced.colour, traced.ambient_occlusion);
     }

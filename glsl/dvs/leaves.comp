@@ -23,7 +23,7 @@ void main() {
     if (textureSize(dvs_filtered, 0).z > size) back = texelFetch(dvs_filtered, voxel + ivec3(0, 0, size), 0).rgb;
     for (int leaf = 0; leaf < 6; ++leaf) {
         float cosine = dot(n, leaf_axis(leaf));
-        float alpha = (leaves & (1u << leaf)) != 0u ? (leaf_opacity == 0 ? 1.0 : min(abs(cosine) + 0.01, 1.0)) : 0.0;
+        float alpha = (leaves & (1u << leaf)) != 0u ? (leaf_opacity == leaf_opacity_binary ? 1.0 : min(abs(cosine) + 0.01, 1.0)) : 0.0;
         imageStore(dvs_directional, voxel + tile_of(leaf, size), vec4(alpha * (cosine > -0.01 ? front : back), alpha));
     }
 }

@@ -53,7 +53,7 @@ void main() {
     float size = length(f.normal), offset = 1.0;
     // The mean of the planes' equations is a plane; past that of a corner (normals .71 long) rays would leak.
     if (planes && averaging != 0 && size > plane_coherence) offset = clamp(f.offset / size, -0.87, 0.87);
-    if (k_emission && emission_share == 1 && averaging >= 2 && f.emission != vec3(0.0)) {
+    if (k_emission && emission_share == emission_share_covered && averaging >= 2 && f.emission != vec3(0.0)) {
         // Of a small body in the voxel a quarter of its surface is seen on average, in front of a quarter of the voxel's.
         float shown = size > 0.3 ? plane_area_in_voxel(f.normal / size, clamp(f.offset / size, -0.8, 0.8)) : 6.0;
         f.emission *= float(sums[index * k_sums]) / max(max(shown, f.area), 0.01);

@@ -26,7 +26,7 @@ uniform float threshold = 0.001;  //! [0, 1] the six directions: least α of a v
 uniform float exposure = 1.0;     //! [0.001, 1000] what emission and radiance are multiplied by
 
 bool is_directional() {
-    return quantity >= 5 && quantity <= 10;
+    return quantity >= quantity_x && quantity <= quantity_minus_z;
 }
 
 int view_mip() {
@@ -43,21 +43,21 @@ bool cube_is_drawn(ivec3 voxel) {
 }
 
 float fragments_of(ivec3 voxel) {
-    if (averaging == 1) return 1.0; // it does not count
-    if (averaging == 0) return float(texelFetch(voxels_packed_albedo, voxel, 0).r >> 24);
+    if (averaging == averaging_last_writer) return 1.0; // it does not count
+    if (averaging == averaging_average) return float(texelFetch(voxels_packed_albedo, voxel, 0).r >> 24);
     return float(sums[(texelFetch(voxels_place, voxel, 0).r - 1u) * k_sums]);
 }
 
 vec3 cube_colour(ivec3 voxel) {
     int behind = textureSize(dvs_base, 0).x;
-    if (quantity == 0) return texelFetch(voxels_albedo, voxel, 0).rgb;
-    if (quantity == 1) return 0.5 * texelFetch(voxels_normal, voxel, 0).xyz + 0.5;
-    if (quantity == 2) return exposure / pre_exposure * texelFetch(voxels_emission, voxel, 0).rgb;
-    if (quantity == 3) return exposure / pre_exposure * texelFetch(dvs_base, voxel, 0).rgb;
-    if (quantity == 4)
+    if (quantity == quantity_albedo) return texelFetch(voxels_albedo, voxel, 0).rgb;
+    if (quantity == quantity_normal) return 0.5 * texelFetch(voxels_normal, voxel, 0).xyz + 0.5;
+    if (quantity == quantity_emission) return exposure / pre_exposure * texelFetch(voxels_emission, voxel, 0).rgb;
+    if (quantity == quantity_radiance) return exposure / pre_exposure * texelFetch(dvs_base, voxel, 0).rgb;
+    if (quantity == quantity_radiance_behind)
         return textureSize(dvs_base, 0).z > behind ? exposure / pre_exposure * texelFetch(dvs_base, voxel + ivec3(0, 0, behind), 0).rgb : vec3(0.0);
     if (is_directional()) return exposure / pre_exposure * directional(voxel).rgb;
-    if (quantity == 11) return (texelFetch(voxels_flags, voxel, 0).r & 2u) != 0u ? vec3(0.95, 0.5, 0.1) : vec3(0.25, 0.4, 0.8);
+    if (quantity == quantity_flags) return (texelFetch(voxels_flags, voxel, 0).r & 2u) != 0u ? vec3(0.95, 0.5, 0.1) : vec3(0.25, 0.4, 0.8);
     return heat_colour(log2(max(fragments_of(voxel), 1.0)) / 8.0);
 }
 

@@ -36,10 +36,10 @@ uint leaves_of(vec3 facing, bool both_sides) {
 void place_fragment(inout VoxelFragment f, vec3 a, vec3 b, vec3 c, vec3 facing, ivec3 voxel) {
     f.offset = dot(facing, a - (vec3(voxel) + 0.5));
     f.area = 0.0;
-    if (k_emission && emission_share == 1 && f.emission != vec3(0.0)) f.area = triangle_area_in_voxel(a, b, c, voxel);
+    if (k_emission && emission_share == emission_share_covered && f.emission != vec3(0.0)) f.area = triangle_area_in_voxel(a, b, c, voxel);
 }
 float emission_weight(VoxelFragment f) {
-    return emission_share == 1 ? f.area : 1.0;
+    return emission_share == emission_share_covered ? f.area : 1.0;
 }
 
 #endif

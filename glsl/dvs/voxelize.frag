@@ -66,7 +66,7 @@ void main() {
     vec3 facing = normalize(normal) * (dot(normal, surface.normal) < 0.0 ? -1.0 : 1.0);
     f.normal = size > 0.0 ? surface.normal / size : facing;
     f.leaves = leaves_of(facing, (material.flags & 1u) != 0u);
-    if (fill == 0) {
+    if (fill == fill_centre) {
         // Outside the triangle its plane may leave its box.
         float least = min(surface_a[axis], min(surface_b[axis], surface_c[axis]));
         float most = max(surface_a[axis], max(surface_b[axis], surface_c[axis]));

@@ -33,7 +33,7 @@ void main() {
             if (!ldm_surface_ray(slot, views[iteration + slot * ldm.batches], x, n, face, ray)) continue;
             float r = ray.distance;
             vec2 open = vec2(r < k_no_hit ? 0.0 : 1.0, r < most ? 0.0 : 1.0);
-            if (falloff == 1 && r < most) open.g = r * r / (most * most);
+            if (falloff == falloff_quadratic && r < most) open.g = r * r / (most * most);
             sum += open * ray.cosine;
         }
     }

@@ -92,7 +92,7 @@ uint last_leg(Emitter emitter, int slot, LdmView view, out Photon photon) {
     float depth = texelFetch(gbuffer_depth, pixel, 0).r;
     if (depth <= 0.0) return k_fate_unseen;
     vec3 seen = world_position(pixel, depth), n = normalize(texelFetch(gbuffer_geometric_normal, pixel, 0).xyz);
-    float off = visibility == 0 ? abs(near_plane / depth - at.z) : abs(dot(seen - x, n)), cosine = -dot(d, n);
+    float off = visibility == visibility_depth ? abs(near_plane / depth - at.z) : abs(dot(seen - x, n)), cosine = -dot(d, n);
     if (off > visibility_distance * scene_diagonal || cosine <= 1.0e-3) return k_fate_unseen;
     if (snap) {
         float beyond = dot(seen - x, n) / dot(d, n);
@@ -108,7 +108,7 @@ uint last_leg(Emitter emitter, int slot, LdmView view, out Photon photon) {
     dv *= sqrt(1.0 + spread * spread / max(dot(dv, dv), 1.0e-20));
     float limit = footprint_limit * scene_diagonal, long_u = length(du), long_v = length(dv);
     if (max(long_u, long_v) > limit) {
-        if (footprint_excess == 0) return k_fate_too_wide;
+        if (footprint_excess == footprint_excess_discard) return k_fate_too_wide;
         du *= min(1.0, limit / long_u);
         dv *= min(1.0, limit / long_v);
     }

@@ -40,7 +40,7 @@ LdmHits ldm_trace(int slot, LdmView view, vec3 x, vec3 normal) {
     float here = p.z;
 
     float before = -1.0, behind = k_no_hit;
-    if (own_surface == 0) {
+    if (own_surface == own_surface_tolerance) {
         for (LdmCursor c = ldm_first(ldm_head(slot, at)); !ldm_ended(c); c = ldm_next(c)) {
             float z = ldm_depth(c, offset);
             if (z < here - apart) {

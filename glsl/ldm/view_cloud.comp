@@ -20,6 +20,6 @@ void main() {
     }
     uint mark = texelFetch(debug_cloud_marks, pixel, 0).r;
     if (mark == 2u) colour = vec3(1.0);
-    if (mark == 1u && points == 1) colour = mix(colour, vec3(0.7, 0.1, 0.05), 0.5);
+    if (mark == 1u && points == points_all) colour = mix(colour, vec3(0.7, 0.1, 0.05), 0.5);
     imageStore(debug_cloud, pixel, vec4(colour, 1.0));
 }

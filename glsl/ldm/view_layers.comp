@@ -11,9 +11,9 @@ uniform int columns = 4;  //! [1, 16] of tiles
 uniform int rows = 3;     //! [1, 16] of tiles
 
 vec3 shown(LdmCursor node) {
-    if (quantity == 1 && ldm.node_words > 2) // a diagonal of the map is a depth of 1
+    if (quantity == quantity_slope && ldm.node_words > 2) // a diagonal of the map is a depth of 1
         return vec3(0.5 + 0.5 * clamp(unpackHalf2x16(ldm_word(node, 2)) * float(ldm.resolution), vec2(-1.0), vec2(1.0)), 0.5);
-    if (quantity == 2 && ldm.node_words > 3) return unpackUnorm4x8(ldm_word(node, 3)).rgb;
+    if (quantity == quantity_albedo && ldm.node_words > 3) return unpackUnorm4x8(ldm_word(node, 3)).rgb;
     return vec3(uintBitsToFloat(ldm_word(node, 0)));
 }
 

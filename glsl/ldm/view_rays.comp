@@ -39,7 +39,7 @@ void main() {
             RecordedRay ray = rays[first + lane];
             bool hits = ray.distance < 1.0e30;
             segments[lane] = view_segment(traced.x, traced.x + min(ray.distance, scene_diagonal) * ray.direction);
-            if (ray.cosine <= 0.0 || (show == 1 && !hits) || (show == 2 && hits)) segments[lane].nearness = vec2(-1.0);
+            if (ray.cosine <= 0.0 || (show == show_hits && !hits) || (show == show_open && hits)) segments[lane].nearness = vec2(-1.0);
             kinds[lane] = vec2(sqrt(ray.cosine), hits ? 1.0 : 0.0);
         }
         barrier();

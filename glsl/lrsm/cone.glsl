@@ -38,7 +38,7 @@ Blocker find_blocker(VoxelGrid grid, vec3 apex, vec3 direction, float from) {
 // the sphere that it covers.
 vec4 trace_lit_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diameter) {
     vec3 light = vec3(0.0), surface = start.surface, apex = start.apex;
-    if (hit_then_sample && hit_lookup == 1) {
+    if (hit_then_sample && hit_lookup == hit_lookup_map) {
         WalkedHit hit = walk_to_hit(grid, start, direction);
         if (hit.t < 0.0) return vec4(0.0);
         if (hit.met) SEE_SPHERE(true, surface + hit.t * direction, hit.t, grid.voxel, 1.0, 0.0, 1.0, hit.light);

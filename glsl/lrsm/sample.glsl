@@ -100,7 +100,7 @@ vec4 sample_sums(int view_index, vec3 centre, float radius, vec3 to_viewer, out 
             SEE_LAYER(at.level);
             if (layers_by_sphere) decay = layer_decay(p, d, range.x + mean * extent);
             vec4 lit = textureLod(lrsm_radiance, vec3(at.uv, float(place)), at.level); // A·R, A·⟨n·l⟩
-            if (estimator == 0) {
+            if (estimator == estimator_published) {
                 radiance += decay * inside * facing * lit.rgb;
             } else {
                 float w = decay * inside * facing / max(lit.a / normal.a, smallest_cosine);
@@ -111,7 +111,7 @@ vec4 sample_sums(int view_index, vec3 centre, float radius, vec3 to_viewer, out 
         }
     }
     mean_facing = facing_sum.x / max(facing_sum.y, 1.0e-6);
-    if (estimator == 0) return vec4(radiance, 0.0);
+    if (estimator == estimator_published) return vec4(radiance, 0.0);
     return weight > 0.0 ? vec4(radiance / weight, weight) : vec4(0.0);
 }
 
@@ -120,7 +120,7 @@ vec4 sample_sums(int view_index, vec3 centre, float radius, vec3 to_viewer, out 
 vec3 sample_view(int view_index, vec3 centre, float radius, vec3 to_viewer, float alpha) {
     float mean_facing;
     vec4 lit = sample_sums(view_index, centre, radius, to_viewer, mean_facing);
-    if (estimator == 0) return lit.rgb;
+    if (estimator == estimator_published) return lit.rgb;
     return lit.rgb * min(1.0, lit.a / max(alpha < 0.0 ? mean_facing : alpha, 1.0e-3));
 }
 

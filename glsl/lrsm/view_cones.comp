@@ -34,7 +34,7 @@ vec4 circle_of(RecordedSphere sphere) {
 }
 
 bool is_drawn(RecordedSphere sphere) {
-    return show == 2 || (show == 1 && sphere.alpha > 1.0e-3);
+    return show == show_all || (show == show_occupied && sphere.alpha > 1.0e-3);
 }
 
 vec3 sphere_colour(RecordedSphere sphere) {

@@ -20,10 +20,10 @@ vec3 attribute_at(ivec3 at, int mip) {
     vec4 depth = texelFetch(lrsm_depth, at, mip);
     if (normal.a <= 0.0) return vec3(0.03);
     float mean = depth.r / max(depth.b, 1.0e-6);
-    if (quantity == 0) return gain / pre_exposure * texelFetch(lrsm_radiance, at, mip).rgb / normal.a;
-    if (quantity == 1) return gain * (0.5 + 0.5 * normal.xyz / normal.a);
-    if (quantity == 2) return vec3(gain * mean);
-    if (quantity == 3) return vec3(gain * normal.a);
+    if (quantity == quantity_radiance) return gain / pre_exposure * texelFetch(lrsm_radiance, at, mip).rgb / normal.a;
+    if (quantity == quantity_normal) return gain * (0.5 + 0.5 * normal.xyz / normal.a);
+    if (quantity == quantity_depth) return vec3(gain * mean);
+    if (quantity == quantity_opacity) return vec3(gain * normal.a);
     return vec3(gain * max(depth.g / max(depth.b, 1.0e-6) - mean * mean, 0.0));
 }
 

@@ -11,5 +11,5 @@ layout(FORMAT_out_ambient_occlusion_dmax) writeonly uniform image2D out_ambient_
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, resolution))) return;
-    imageStore(out_ambient_occlusion_dmax, pixel, vec4(horizon_visibility(pixel, d_max * scene_diagonal, falloff == 0)));
+    imageStore(out_ambient_occlusion_dmax, pixel, vec4(horizon_visibility(pixel, d_max * scene_diagonal, falloff == falloff_quadratic)));
 }

@@ -77,8 +77,8 @@ float occluded_along(Pixel p, vec2 d, float shift, float radius, bool fades) {
     vec3 ray = pixel_ray(vec2(p.at) + d);
     vec3 aside = normalize(ray - dot(ray, p.to_viewer) * p.to_viewer); // in the plane marched, toward d
     vec3 tangent = normalize(aside * dot(p.to_viewer, p.face) - p.to_viewer * dot(aside, p.face));
-    bool by_cosine = weighting == 1;
-    vec3 axis = by_cosine || zenith == 1 ? p.to_viewer : -camera_forward;
+    bool by_cosine = weighting == weighting_cosine;
+    vec3 axis = by_cosine || zenith == zenith_view_ray ? p.to_viewer : -camera_forward;
     float bias = radians(angle_bias), least_rise = sin(bias);
     float lift = bias_lifts_tangent ? bias : 0.0;
     float occluded = 0.0;
@@ -139,7 +139,7 @@ float horizon_visibility(ivec2 at, float radius, bool fades) {
     p.n = normalize(texelFetch(gbuffer_normal, at, 0).xyz);
     p.face = normalize(texelFetch(gbuffer_geometric_normal, at, 0).xyz);
 
-    bool around_ray = weighting == 1 || zenith == 1;
+    bool around_ray = weighting == weighting_cosine || zenith == zenith_view_ray;
     vec3 a = normalize(camera_right - dot(camera_right, p.to_viewer) * p.to_viewer), b = cross(a, p.to_viewer);
     float part = interleaved_part(at, interleave);
     // Shifts go through the block in another order than turns do.
@@ -151,7 +151,7 @@ float horizon_visibility(ivec2 at, float radius, bool fades) {
         if (around_ray) d = image_direction(p, d.x * a + d.y * b);
         sum += occluded_along(p, d, shift, radius, fades);
     }
-    return 1.0 - (weighting == 1 ? 2.0 : 1.0) * sum / float(directions);
+    return 1.0 - (weighting == weighting_cosine ? 2.0 : 1.0) * sum / float(directions);
 }
 
 #endif

@@ -48,7 +48,7 @@ void main() {
         float cosine = dot(n, l);
         // Both sides reflect, but light does not pass: it must come from the side that the viewer is on.
         if (cosine <= 0.0 || dot(face, l) <= 0.0 || max(irradiance.r, max(irradiance.g, irradiance.b)) <= 0.0) continue;
-        if (shadows && visibility == 1) {
+        if (shadows && visibility == visibility_cones) {
             irradiance *= texelFetch(voxels_light_visibility, ivec3(pixel, i), 0).r;
         } else if (shadows && light.shadow_base >= 0) {
             int layer = shadow_layer(light, position);

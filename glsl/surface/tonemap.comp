@@ -22,6 +22,6 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(out_display)))) return;
     vec3 x = texelFetch(out_radiance, pixel, 0).rgb * (exp2(exposure) / pre_exposure);
-    if (curve == 1) x = aces_like(x);
+    if (curve == curve_aces_like) x = aces_like(x);
     imageStore(out_display, pixel, vec4(srgb_encode(clamp(x, 0.0, 1.0)), 1.0));
 }

@@ -10,7 +10,7 @@ void main() {
     ivec3 at = ivec3(gl_GlobalInvocationID), size = imageSize(voxels_occlusion);
     if (any(greaterThanEqual(at, size))) return;
     uint brick = texelFetch(voxels_bricks, at, 0).r;
-    if (mip_rule == 1 && size.z != size.x) {
+    if (mip_rule == mip_rule_along_leaf && size.z != size.x) {
         // A column along the leaf's axis is blocked when either of its two voxels is.
         int axis = at.z / size.x / 2;
         uint folded = brick | brick >> (1 << axis);

@@ -8,6 +8,9 @@
 // `part` in [0, 1) says which of them. Spirals then take the N cones whose (i + part)/N interleave; sixes turn.
 #include "lib/interleave.glsl"
 
+// The parameters `cone_set` list them in this order.
+const int k_cones_six = 0, k_cones_six_tilted = 1, k_cones_spiral = 2, k_cones_four = 3;
+
 const float k_golden_angle = 2.39996322973;
 
 // A frame around n without branches (Duff et al., "Building an orthonormal basis, revisited", JCGT 2017). Columns: t, b, n.
@@ -18,23 +21,23 @@ mat3 frame_around(vec3 n) {
 }
 
 int cone_count(int set, int spiral_cones) {
-    return set == 2 ? spiral_cones : (set == 3 ? 4 : 6);
+    return set == k_cones_spiral ? spiral_cones : (set == k_cones_four ? 4 : 6);
 }
 
 // Direction of cone i in the frame of the normal, and in w its weight; the weights sum to 1.
 vec4 cone_of(int set, int spiral_cones, int i, float part) {
-    if (set == 2) {
+    if (set == k_cones_spiral) {
         float at = (float(i) + part) / float(spiral_cones);
         float cosine = sqrt(1.0 - at), sine = sqrt(at);
         float turn = k_golden_angle * float(i) + 6.28318530718 * fract(part * 1.61803398875 + 0.5);
         return vec4(sine * cos(turn), sine * sin(turn), cosine, 1.0 / float(spiral_cones));
     }
-    if (set == 3) {
+    if (set == k_cones_four) {
         float turn = 1.57079632679 * (float(i) + part);
         return vec4(0.70710678 * cos(turn), 0.70710678 * sin(turn), 0.70710678, 0.25);
     }
     if (i == 0) return vec4(0.0, 0.0, 1.0, 0.25);
-    float tilt = set == 0 ? 1.0471975512 : 0.9117382909; // acos √(3/8)
+    float tilt = set == k_cones_six ? 1.0471975512 : 0.9117382909; // acos √(3/8)
     float turn = 1.25663706144 * (float(i - 1) + part - 0.5);
     return vec4(sin(tilt) * cos(turn), sin(tilt) * sin(turn), cos(tilt), 0.15);
 }

@@ -22,7 +22,7 @@ float voxel_alpha(ivec3 voxel) {
     if (leaves == 1) return texelFetch(voxels_occlusion, voxel, view_mip()).r;
     float alpha = 0.0;
     for (int i = 0; i < leaves; ++i)
-        if (leaf == 0 || leaf == i + 1) alpha = max(alpha, texelFetch(voxels_occlusion, voxel + ivec3(0, 0, i * size.x), view_mip()).r);
+        if (leaf == leaf_any || leaf == i + 1) alpha = max(alpha, texelFetch(voxels_occlusion, voxel + ivec3(0, 0, i * size.x), view_mip()).r);
     return alpha;
 }
 

@@ -38,7 +38,7 @@ void main() {
     vec3 across = normal;
     across[axis] = 0.0;
     float depth = surface_a[axis] - dot(across, vec3(unproject(column, 0, axis)) + 0.5 - surface_a) / normal[axis];
-    if (fill == 0) {
+    if (fill == fill_centre) {
         ivec3 voxel = unproject(column, int(floor(depth)), axis);
         if (surface_is_there(material, alpha, voxel_place(voxel, axis, surface_draw)))
             store_occlusion(voxel, surface_facing, both_sides, resolution_of_grid);

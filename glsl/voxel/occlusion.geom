@@ -56,7 +56,7 @@ void main() {
     if (dot(facing, corner[0].normal + corner[1].normal + corner[2].normal) < 0.0) facing = -facing;
     int axis = dominant_axis(normal);
     vec2 p[3] = vec2[3](project(a, axis), project(b, axis), project(c, axis));
-    if (fill == 0) {
+    if (fill == fill_centre) {
         for (int i = 0; i < 3; ++i)
             emit(p[i], corner[i].uv, corner[i].colour, facing);
         EndPrimitive();

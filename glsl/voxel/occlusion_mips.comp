@@ -19,7 +19,7 @@ void main() {
     if (any(greaterThanEqual(voxel, size))) return;
     ivec3 base = 2 * voxel;
     float alpha = 0.0;
-    if (mip_rule == 0 || size.z == size.x) {
+    if (mip_rule == mip_rule_mean || size.z == size.x) {
         for (int i = 0; i < 8; ++i)
             alpha += finer(base + ivec3(i & 1, (i >> 1) & 1, i >> 2));
         alpha /= 8.0;

@@ -15,6 +15,6 @@ void main() {
     int side = view_resolution();
     ivec2 place = pixel * side / size; // row 0 at the top
     int up = side - 1 - place.y, along = min(int(at * float(side)), side - 1);
-    ivec3 voxel = axis == 0 ? ivec3(along, up, place.x) : (axis == 1 ? ivec3(place.x, along, place.y) : ivec3(place.x, up, along));
+    ivec3 voxel = axis == axis_x ? ivec3(along, up, place.x) : (axis == axis_y ? ivec3(place.x, along, place.y) : ivec3(place.x, up, along));
     imageStore(debug_voxel_slice, pixel, vec4(voxel_alpha(voxel)));
 }

@@ -92,6 +92,7 @@ class Expander {
         head.insert(head.end(), extensions_.begin(), extensions_.end());
         for (const auto& [name, value] : defines_)
             head.push_back("#define " + name + " " + value);
+        head.insert(head.end(), choices_.begin(), choices_.end());
         std::vector<SourceLocation> lines(head.size());
         lines.insert(lines.end(), out_.lines.begin(), out_.lines.end());
         out_.lines = std::move(lines);
@@ -302,6 +303,13 @@ class Expander {
         bool known = std::any_of(out_.parameters.begin(), out_.parameters.end(),
                                  [&](const ParameterInfo& p) { return p.name == info.name; });
         if (!known) out_.parameters.push_back(info);
+        if (!known) name_choices(info);
+    }
+
+    /// An enumeration's values by name, as constants above all code: "visibility_cones" is 1.
+    void name_choices(const ParameterInfo& info) {
+        for (size_t i = 0; i < info.choices.size(); ++i)
+            choices_.push_back(fmt::format("const int {}_{} = {};", info.name, info.choices[i], i));
     }
 
     void take_slots(const CodeLine& line, const std::string& where, const fs::path& file) {
@@ -325,6 +333,7 @@ class Expander {
 
     const ShaderLimits& limits_ = shader_limits();
     std::map<std::string, bool> static_bools_;
+    std::vector<std::string> choices_; ///< constants that name the enumerations' values
     fs::path folder_;
     const Defines& defines_;
     const Defines& statics_;

@@ -53,7 +53,7 @@ struct ShaderSource {
     std::vector<std::filesystem::path> files;   ///< closure: the stage file first, then includes in order
     std::vector<std::filesystem::path> missing; ///< includes that were not found (watched for their appearance)
     std::vector<SourceLocation> lines;          ///< per flat line of `text` (0-based); line 0 = ours
-    std::vector<ParameterInfo> parameters;
+    std::vector<ParameterInfo> parameters; ///< of enumerations the values have names: `visibility_cones` is 1
     std::vector<ShaderSlot> slots;
     std::vector<ShaderError> errors; ///< missing files, malformed //! lines
 };

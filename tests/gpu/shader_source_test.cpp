@@ -50,6 +50,22 @@ class Source : public testing::Test {
 
 } // namespace
 
+/// Once a name, above all code, so that functions that stand before the uniform know them.
+TEST_F(Source, ValuesOfEnumerationsHaveNames) {
+    folder.write("a.comp", "#include \"used.glsl\"\n"
+                           "uniform int way = 1; //! {hard, soft} how\n"
+                           "uniform int set = 0; //! static {one, two} which\n"
+                           "void main() {}\n");
+    folder.write("used.glsl", "uniform int way = 1; //! {hard, soft} how\n");
+    ShaderSource source = expand("a.comp");
+    EXPECT_THAT(source.errors, IsEmpty());
+    std::vector<std::string> flat = lines_of(source.text);
+    flat.resize(5);
+    EXPECT_THAT(flat, ElementsAre("#version 460 core", "const int way_hard = 0;", "const int way_soft = 1;",
+                                  "const int set_one = 0;", "const int set_two = 1;"));
+    expect_table_holds(source);
+}
+
 TEST_F(Source, IncludesBesideTheFileThenInTheFolderOnceAStage) {
     folder.write("a/main.comp", "// top\n#include \"near.glsl\"\n#include \"lib/far.glsl\"\nvoid main() {}\n");
     folder.write("a/near.glsl", "float near_one;\n#include \"lib/far.glsl\"\nfloat near_two;\n");
