@@ -8,15 +8,20 @@
 #include "core/text.h"
 #include "scene/find_scene.h"
 
+#include <algorithm>
+
 namespace bounce {
 
-/// Graphs that are lists of departures from another.
+/// Graphs that are lists of departures from another of them (every method starts from one in graphs/base).
 static std::vector<std::string> preset_names() {
+    const std::vector<std::string> graphs = asset_names("graphs");
     std::vector<std::string> names;
-    for (const std::string& name : asset_names("graphs")) {
+    for (const std::string& name : graphs) {
         try {
             const auto json = read_json_file(assets_folder() / "graphs" / (name + ".json"));
-            if (json.is_object() && json.contains("extends")) names.push_back(name);
+            const auto base = json.is_object() ? json.value("extends", nlohmann::json()) : nlohmann::json();
+            if (base.is_string() && std::find(graphs.begin(), graphs.end(), base.get<std::string>()) != graphs.end())
+                names.push_back(name);
         } catch (const Error&) {
             // A file that cannot be read is told by who opens it.
         }

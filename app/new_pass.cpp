@@ -2,13 +2,15 @@
 
 #include "core/error.h"
 #include "core/image.h"
+#include "core/json_edit.h"
 #include "core/paths.h"
 #include "core/scanner.h"
 #include "graph/graph_file.h"
+#include "graph/graph_overlay.h"
+#include "graph/pass.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace bounce {
 
@@ -18,17 +20,16 @@ namespace fs = std::filesystem;
 static const char* const k_shader = R"(// What this pass computes, in one sentence.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-uniform sampler2D out_radiance;                              // read: the resource out.radiance
-layout(FORMAT_@_result) writeonly uniform image2D @_result;  // written: @.result, declared in the graph file
+layout(FORMAT_out_radiance) uniform image2D out_radiance;  // read and written: the picture, linear, before the tone map
 
 uniform float strength = 1.0;               //! [0, 2] how much of the tint is applied
 uniform vec3 tint = vec3(1.0, 0.8, 0.6);    //! what the picture is multiplied by
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, imageSize(@_result)))) return;
-    vec3 radiance = texelFetch(out_radiance, pixel, 0).rgb;
-    imageStore(@_result, pixel, vec4(radiance * mix(vec3(1.0), tint, strength), 1.0));
+    if (any(greaterThanEqual(pixel, imageSize(out_radiance)))) return;
+    vec3 radiance = imageLoad(out_radiance, pixel).rgb;
+    imageStore(out_radiance, pixel, vec4(radiance * mix(vec3(1.0), tint, strength), 1.0));
 }
 )";
 
@@ -39,22 +40,9 @@ namespace bounce {
 
 class @_pass : public Pass {
   public:
-    void describe(PassDescription& description) override {
-        description.program("main", {"user/@.comp"});
-        description.parameters.add("scale", scale_, {0.1, 1.0}, "", "size of the result as a share of the picture's");
-    }
-
-    void declare(Declaration& d) override {
-        d.uses("main");
-        d.creates("@.result", ResourceKind::texture_2d, "rgba16f",
-                  {int(float(d.size.x) * scale_), int(float(d.size.y) * scale_)})
-            .radiance = true; // shown in W/(sr·m²); without this line, as stored
-    }
-
-    void execute(PassContext& c) override { c.dispatch("main", c.size("@.result")); }
-
-  private:
-    float scale_ = 1.0f;
+    void describe(PassDescription& description) override { description.program("main", {"user/@.comp"}); }
+    void declare(Declaration& d) override { d.uses("main"); }
+    void execute(PassContext& c) override { c.dispatch("main", c.size("out.radiance")); }
 };
 
 BOUNCE_REGISTER_PASS("@", @_pass, "what this pass computes, in one sentence")
@@ -70,58 +58,70 @@ static std::string filled(std::string text, const std::string& name, const std::
     return text;
 }
 
-std::string write_new_pass(const NewPass& request) {
+/// "depth_of_field" → "DepthOfFieldPass".
+static std::string class_name_of(const std::string& name) {
+    std::string out;
+    bool upper = true;
+    for (char c : name) {
+        if (c != '_') out += upper ? char(std::toupper(static_cast<unsigned char>(c))) : c;
+        upper = c == '_';
+    }
+    return out + "Pass";
+}
+
+static void check_name(const NewPass& request) {
     const std::string& name = request.name;
-    if (!is_lower_case_name(name, false)) {
-        throw Error("'" + shortened(name) +
-                    "' is no name for a pass: it is lower case letters and digits, as 'edges' "
-                    "(it also names the group of its resources)");
+    if (!is_lower_case_name(name, true) || name.find("__") != std::string::npos || name.ends_with('_')) {
+        throw Error("invalid pass name '" + shortened(name) +
+                    "': expected lower case letters, digits and single underscores, as 'edge_glow'");
     }
     // What the program gives these names to already: graph.parameter, scene.lights, material textures, GLSL's own gl_….
     for (const char* reserved : {"graph", "scene", "material", "gl"}) {
-        if (name == reserved) throw Error(fmt::format("'{}' is no name for a pass: the program uses it itself", name));
+        if (name == reserved)
+            throw Error(
+                fmt::format("invalid pass name '{}': expected another, because the program uses it itself", name));
     }
+    bool known = std::any_of(pass_types().begin(), pass_types().end(), [&](auto& type) { return type.name == name; });
+    if (request.cpp && known) throw Error("invalid pass name '" + name + "': there is a pass type of that name");
+}
+
+std::string write_new_pass(const NewPass& request) {
+    const std::string& name = request.name;
+    check_name(request);
     fs::path shader = glsl_folder() / "user" / (name + ".comp");
-    fs::path cpp = root_folder() / "passes" / "surface" / (name + ".cpp");
+    fs::path cpp = root_folder() / "passes" / "user" / (name + ".cpp");
     fs::path graph_path = find_graph(request.graph);
-    GraphFile graph = load_graph_file(graph_path);
+    GraphFile graph = read_graph_file(graph_path);
+    auto place = std::find_if(graph.nodes.begin(), graph.nodes.end(), [](auto& node) { return node.id == "tonemap"; });
     bool taken = std::any_of(graph.nodes.begin(), graph.nodes.end(), [&](auto& node) { return node.id == name; });
     if (taken) throw Error(fmt::format("{} has a pass '{}' already", graph_path.string(), name));
     for (const fs::path& path : {shader, cpp}) {
         if (fs::exists(path) && (request.cpp || path == shader)) throw Error(path.string() + " is there already");
     }
 
-    auto json = nlohmann::ordered_json::parse(read_file(graph_path), nullptr, true, true);
-    nlohmann::ordered_json entry;
-    entry["id"] = name;
-    if (request.cpp) {
-        entry["type"] = name;
-    } else {
-        entry["type"] = "compute";
-        entry["shader"] = "user/" + name + ".comp";
-        json["resources"][name + ".result"] = {{"format", "rgba16f"}, {"radiance", true}};
-    }
     // Before the tone map, where the picture is complete and still linear.
-    auto& passes = json["passes"];
-    size_t at = passes.size();
-    for (size_t i = 0; i < graph.nodes.size(); ++i) {
-        if (graph.nodes[i].id == "tonemap") at = i;
-    }
-    passes.insert(passes.begin() + long(at), entry);
+    bool extends = graph.files.size() > 1;
+    OrderedJson entry = OrderedJson::object();
+    if (extends && place != graph.nodes.end()) entry["before"] = "tonemap";
+    entry["id"] = name;
+    entry["type"] = request.cpp ? name : "compute";
+    if (!request.cpp) entry["shader"] = "user/" + name + ".comp";
+    JsonEdit text(read_file(graph_path));
+    size_t own = parse_graph_text(graph_path).value("passes", OrderedJson::array()).size();
+    text.insert({"passes"}, extends ? own : size_t(place - graph.nodes.begin()), on_one_line(entry));
 
-    std::string class_name = name + "Pass";
-    class_name[0] = char(std::toupper(class_name[0]));
     fs::create_directories(shader.parent_path());
-    write_file_atomically(shader, filled(k_shader, name, class_name));
+    write_file_atomically(shader, filled(k_shader, name, class_name_of(name)));
     std::string done = fmt::format("wrote {}\n", shader.string());
     if (request.cpp) {
-        write_file_atomically(cpp, filled(k_cpp, name, class_name));
+        fs::create_directories(cpp.parent_path());
+        write_file_atomically(cpp, filled(k_cpp, name, class_name_of(name)));
         done += fmt::format("wrote {}\n", cpp.string());
     }
-    write_file_atomically(graph_path, json.dump(2) + "\n");
+    write_file_atomically(graph_path, text.text());
     done += fmt::format("added '{}' to {}\n", name, graph_path.string());
-    done += fmt::format("look at it:  bounce render {} --graph {} --resource {}.result -o {}.png{}\n", "cornell",
-                        graph.name, name, name, request.cpp ? "   (after building)" : "");
+    done += fmt::format("look at it:  bounce render cornell --graph {} -o {}.png{}\n", request.graph, name,
+                        request.cpp ? "   (after building)" : "");
     return done;
 }
 

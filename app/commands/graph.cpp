@@ -2,6 +2,7 @@
 #include "app/commands/command.h"
 #include "app/commands/session_options.h"
 #include "core/error.h"
+#include "graph/graph_overlay.h"
 #include "graph/model.h"
 
 #include <fmt/format.h>
@@ -15,9 +16,33 @@ struct GraphArguments {
     std::vector<std::string> sets;
     std::string size;
     bool graphviz = false;
+    bool expanded = false;
+    std::string diff;
 };
 
+/// Members in the order in which graph files have them.
+OrderedJson whole_graph(const std::string& name) {
+    OrderedJson root = expand_graph(find_graph(name)).root, ordered = OrderedJson::object();
+    for (const char* key : {"version", "about", "transport", "parameters", "resources", "passes"})
+        if (root.contains(key)) ordered[key] = root[key];
+    return ordered;
+}
+
+/// The overlay that makes `to` of `from`.
+std::string departures_text(const std::string& from, const std::string& to) {
+    OrderedJson overlay = {{"version", 1}, {"extends", from}};
+    overlay.update(graph_departures(whole_graph(from), whole_graph(to)));
+    return graph_text(overlay);
+}
+
 int print_graph(const GraphArguments& arguments) {
+    if (arguments.expanded || !arguments.diff.empty()) {
+        for (const std::string& name : {arguments.name, arguments.diff})
+            if (!name.empty()) GraphModel(read_graph_file(find_graph(name))); // what is wrong with it is reported
+        fmt::print("{}", arguments.diff.empty() ? graph_text(whole_graph(arguments.name))
+                                                : departures_text(arguments.name, arguments.diff));
+        return 0;
+    }
     SessionArguments shared;
     shared.sets = arguments.sets;
     shared.size = arguments.size;
@@ -43,6 +68,11 @@ void add_graph_command(CLI::App& app, CommandFunction& chosen) {
     command->add_option("--set", arguments->sets, "a parameter: pass.name=value")->allow_extra_args(false);
     command->add_option("--size", arguments->size, "WxH instead of the shot's size");
     command->add_flag("--graphviz", arguments->graphviz, "as a Graphviz digraph (dot -Tsvg)");
+    auto* expanded = command->add_flag("--expanded", arguments->expanded, "as one graph file that extends nothing");
+    command
+        ->add_option("--diff", arguments->diff,
+                     "as what another graph departs from it in: a graph file that extends it")
+        ->excludes(expanded);
     command->callback([arguments, &chosen] { chosen = [arguments] { return print_graph(*arguments); }; });
 }
 

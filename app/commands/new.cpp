@@ -12,7 +12,7 @@ void add_new_command(CLI::App& app, CommandFunction& chosen) {
     auto* pass =
         command->add_subcommand("pass", "a compute shader and its entry in a graph file (and C++, with --cpp)");
     auto request = std::make_shared<NewPass>();
-    pass->add_option("name", request->name, "lower case letters and digits")->required();
+    pass->add_option("name", request->name, "lower case letters, digits and underscores")->required();
     pass->add_option("--graph,-g", request->graph, "the graph file that gets the entry")
         ->type_name("GRAPH")
         ->capture_default_str();

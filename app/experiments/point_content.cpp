@@ -2,8 +2,8 @@
 
 #include "app/capture.h"
 #include "core/error.h"
-#include "core/json_text.h"
 #include "core/text.h"
+#include "graph/graph_overlay.h"
 #include "graph/model.h"
 #include "reference/content_key.h"
 
@@ -12,15 +12,12 @@
 
 namespace bounce {
 
-/// The graph's files, whatever is said about them and however they are laid out.
+/// The whole graph, whatever is said about it and however it is laid out in files.
 static std::string digest_of_graph(const GraphModel& model) {
+    OrderedJson whole = expand_graph(model.file().path).root;
+    whole.erase("about");
     ContentHash hash;
-    for (const std::filesystem::path& file : model.files()) {
-        if (file.extension() != ".json") continue; // the shaders are digested as they are expanded
-        nlohmann::ordered_json json = read_json_file<nlohmann::ordered_json>(file);
-        json.erase("about");
-        hash.add(json.dump());
-    }
+    hash.add(nlohmann::json(whole).dump()); // members have no order
     return hash.text();
 }
 

@@ -106,7 +106,7 @@ void draw_preset(PanelContext& context) {
     }
     ImGui::EndDisabled();
     note_widget("capture.save_preset");
-    help("The graph's file with the values of the panels.");
+    help("A graph that extends this one by the values of the panels.");
     ImGui::SameLine();
     ImGui::Checkbox("overwrite", &overwrite);
 }

@@ -7,9 +7,10 @@
 
 namespace bounce {
 
-/// The loaded graph's file with the values and switches of the panels in the places of its own. Throws Error when the
-/// file is not the one that was loaded any more.
-std::string graph_preset_text(const Session& session);
+/// What a preset at `path` holds: a graph that extends the loaded one by the values and switches of the panels that
+/// differ from it. Where `path` is the loaded graph's own file, that file with these values in it; its comments and its
+/// layout stay. Throws Error when the loaded graph starts from `path`, or is not in its file any more.
+std::string graph_preset_text(const Session& session, const std::filesystem::path& path);
 
 /// Where a preset of that name goes: assets/graphs/NAME.json, or the path when it is one. Throws Error for a bad name.
 std::filesystem::path graph_preset_path(const std::string& name);

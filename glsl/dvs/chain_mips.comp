@@ -5,7 +5,7 @@
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 
-uniform sampler3D dvs_finer;
+uniform sampler3D dvs_finer;  //! from dvs.directional
 uniform usampler3D voxels_bricks;
 layout(FORMAT_dvs_directional) writeonly uniform image3D dvs_directional;
 

@@ -1,12 +1,12 @@
 // One mip step of the layers: each attribute is a plain mean of four texels, since all are stored weighted by opacity.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-uniform sampler2DArray lrsm_finer_radiance;
-uniform sampler2DArray lrsm_finer_normal;
-uniform sampler2DArray lrsm_finer_depth;
-layout(FORMAT_lrsm_coarser_radiance) writeonly uniform image2DArray lrsm_coarser_radiance;
-layout(FORMAT_lrsm_coarser_normal) writeonly uniform image2DArray lrsm_coarser_normal;
-layout(FORMAT_lrsm_coarser_depth) writeonly uniform image2DArray lrsm_coarser_depth;
+uniform sampler2DArray lrsm_finer_radiance;  //! from lrsm.radiance mip iteration - 1
+uniform sampler2DArray lrsm_finer_normal;  //! from lrsm.normal mip iteration - 1
+uniform sampler2DArray lrsm_finer_depth;  //! from lrsm.depth mip iteration - 1
+layout(FORMAT_lrsm_coarser_radiance) writeonly uniform image2DArray lrsm_coarser_radiance;  //! from lrsm.radiance mip iteration
+layout(FORMAT_lrsm_coarser_normal) writeonly uniform image2DArray lrsm_coarser_normal;  //! from lrsm.normal mip iteration
+layout(FORMAT_lrsm_coarser_depth) writeonly uniform image2DArray lrsm_coarser_depth;  //! from lrsm.depth mip iteration
 layout(std430) readonly buffer lrsm_summary { int summary[]; };
 
 vec4 mean_of_four(sampler2DArray finer, ivec3 at) {

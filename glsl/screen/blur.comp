@@ -7,7 +7,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D gbuffer_geometric_normal;
 uniform sampler2D gbuffer_depth;
 uniform sampler2D screen_occlusion;
-layout(FORMAT_screen_blurred) writeonly uniform image2D screen_blurred;
+layout(FORMAT_screen_blurred) writeonly uniform image2D screen_blurred;  //! from out.ambient_occlusion, neutral 1
 
 uniform int width = 4;                //! [1, 16] (texels) of the box; 1: no blur
 uniform float normal_power = 16.0;    //! [0, 256] weights fall with ⟨n·n'⟩ to this power

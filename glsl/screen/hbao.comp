@@ -3,7 +3,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(FORMAT_out_ambient_occlusion) writeonly uniform image2D out_ambient_occlusion;
+layout(FORMAT_out_ambient_occlusion) writeonly uniform image2D out_ambient_occlusion;  //! neutral 1
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

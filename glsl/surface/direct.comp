@@ -15,7 +15,7 @@ uniform sampler2D gbuffer_roughness_metallic;
 uniform sampler2D gbuffer_depth;
 uniform sampler2DArray shadow_depth;  //! optional
 layout(std430) readonly buffer shadow_views { ShadowView views[]; };  //! optional
-uniform sampler2DArray voxels_light_visibility;  //! optional
+uniform sampler2DArray voxels_light_visibility;  //! optional unless visibility == cones, neutral 1
 layout(FORMAT_out_direct) writeonly uniform image2D out_direct;
 
 uniform bool shadows = true;         //! shadow maps are looked up; off: every light is seen from everywhere

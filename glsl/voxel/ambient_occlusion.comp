@@ -9,7 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D gbuffer_geometric_normal;
 uniform sampler2D gbuffer_normal;
 uniform sampler2D gbuffer_depth;
-layout(FORMAT_out_ambient_occlusion) writeonly uniform image2D out_ambient_occlusion;
+layout(FORMAT_out_ambient_occlusion) writeonly uniform image2D out_ambient_occlusion;  //! neutral 1
 
 uniform int cone_set = 0;           //! {six, six_tilted, spiral, four} six as published
 uniform int spiral_cones = 32;      //! [4, 256] cones of the set spiral

@@ -4,8 +4,8 @@
 // differ only by their base level.
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 
-uniform sampler3D voxels_finer;
-layout(FORMAT_voxels_coarser) writeonly uniform image3D voxels_coarser;
+uniform sampler3D voxels_finer;  //! from voxels.occlusion mip iteration - 1
+layout(FORMAT_voxels_coarser) writeonly uniform image3D voxels_coarser;  //! from voxels.occlusion mip iteration
 
 uniform int mip_rule = 0;  //! {mean, along_leaf} how eight voxels become one; along_leaf needs directional leaves
 

@@ -10,7 +10,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform sampler2D gbuffer_geometric_normal;
 uniform sampler2D gbuffer_depth;
-layout(FORMAT_voxels_light_visibility) writeonly uniform image2DArray voxels_light_visibility;
+layout(FORMAT_voxels_light_visibility) writeonly uniform image2DArray voxels_light_visibility; //! neutral 1
 
 uniform float aperture = 3.0; //! [0.1, 45] (degrees) of the cone, from side to side
 

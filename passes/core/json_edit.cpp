@@ -145,12 +145,12 @@ Value reach(std::string& text, const std::vector<std::string>& path, const char*
 
 } // namespace
 
-void JsonText::set(const std::vector<std::string>& path, const std::string& value) {
+void JsonEdit::set(const std::vector<std::string>& path, const std::string& value) {
     Value found = reach(text_, path, "null");
     text_.replace(found.begin, found.end - found.begin, value);
 }
 
-void JsonText::insert(const std::vector<std::string>& path, size_t before, const std::string& value) {
+void JsonEdit::insert(const std::vector<std::string>& path, size_t before, const std::string& value) {
     Value list = reach(text_, path, "[]");
     if (list.kind != '[') throw Error(fmt::format("'{}' is no list", path.back()));
     add_child(text_, list, before, value);

@@ -7,9 +7,9 @@
 namespace bounce {
 
 /// The text of a JSON document with // and /* */ comments. It must be well-formed (a reader has accepted it).
-class JsonText {
+class JsonEdit {
   public:
-    explicit JsonText(std::string text) : text_(std::move(text)) {}
+    explicit JsonEdit(std::string text) : text_(std::move(text)) {}
     const std::string& text() const { return text_; }
 
     /// Sets a member of the object at `path` (names of members, and numbers of elements) to a JSON text; makes the

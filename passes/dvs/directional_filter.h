@@ -9,7 +9,7 @@ namespace bounce {
 class DirectionalFilter {
   public:
     static void describe(PassDescription& description);
-    /// Slots: dvs.filtered (the radiance volume), dvs.directional, and dvs.finer, which is to be bound to the latter.
+    /// Slots: dvs.filtered (the radiance volume) and dvs.directional.
     void declare(Declaration& declaration) const;
     void run(PassContext& context) const;
     /// Until what was stored can be fetched.

@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "gpu/shader_limits.h"
 #include "gpu/shader_location.h"
+#include "gpu/slot_note.h"
 #include "gpu/slot_reader.h"
 
 #include <algorithm>
@@ -314,10 +315,14 @@ class Expander {
 
     void take_slots(const CodeLine& line, const std::string& where, const fs::path& file) {
         for (auto& [slot, note] : slot_reader_.read(line.code, line.mark.value_or(""))) {
-            slot.optional = Scanner(note).take_word("optional");
             slot.where = where;
             slot.certain =
                 std::all_of(conditions_.begin(), conditions_.end(), [](auto& c) { return c.holds.has_value(); });
+            try {
+                if (!note.empty()) read_slot_note(note, slot);
+            } catch (const Error& failure) {
+                error(file, line.number, line.written.front(), failure.what());
+            }
             if (slot.name.find('.') == std::string::npos) {
                 error(file, line.number, line.written.front(),
                       fmt::format("'{0}' is no name for a resource: write it with an underscore, as group_{0}, for the "

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,9 +36,13 @@ struct ShaderSlot {
     std::string type; ///< "sampler2D", "uimage3D"; empty for storage blocks
     bool reads = true;
     bool writes = false;
-    bool optional = false; ///< "//! optional": a neutral value is read when nothing produces it
-    bool certain = true;   ///< false inside an #if whose outcome only the compiler knows
-    std::string where;     ///< "glsl/x.comp:12"
+    bool optional = false; ///< "//! optional": a neutral value is read when nothing produces it (see slot_note.h)
+    std::optional<glm::vec4> neutral; ///< "//! neutral 1"
+    std::string required_if;          ///< "//! optional unless EXPRESSION"
+    std::string from, from_mip,
+        from_layer;      ///< "//! from group.name mip iteration": its source unless the graph binds one
+    bool certain = true; ///< false inside an #if whose outcome only the compiler knows
+    std::string where;   ///< "glsl/x.comp:12"
 };
 /// "gbuffer_normal" ↔ "gbuffer.normal".
 std::string slot_name(const std::string& identifier);
@@ -53,7 +58,7 @@ struct ShaderSource {
     std::vector<std::filesystem::path> files;   ///< closure: the stage file first, then includes in order
     std::vector<std::filesystem::path> missing; ///< includes that were not found (watched for their appearance)
     std::vector<SourceLocation> lines;          ///< per flat line of `text` (0-based); line 0 = ours
-    std::vector<ParameterInfo> parameters; ///< of enumerations the values have names: `visibility_cones` is 1
+    std::vector<ParameterInfo> parameters;      ///< of enumerations the values have names: `visibility_cones` is 1
     std::vector<ShaderSlot> slots;
     std::vector<ShaderError> errors; ///< missing files, malformed //! lines
 };

@@ -1,8 +1,8 @@
 #include "graph/context.h"
 
 #include "core/error.h"
-#include "graph/expression.h"
 #include "graph/graph.h"
+#include "graph/scope.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -57,24 +57,27 @@ const Buffer& PassContext::buffer(const std::string& name) const {
 }
 
 std::optional<double> PassContext::number(const std::string& name) const {
-    inputs_.numbers.insert(name);
-    return number_in_frame(*graph_.model_, graph_.plan_, name);
+    // The step is no input of the pass: every step of it runs.
+    if (name != "iteration") inputs_.numbers.insert(name);
+    return Scope{*graph_.model_, &facts(), {}, {}, {}, iteration}.of_plan(graph_.plan_).number(name);
+}
+
+int PassContext::integer(const std::string& expression) const {
+    if (expression == "iteration") return iteration;
+    Scope scope{*graph_.model_, &facts(), {}, {}, {}, iteration};
+    Names names = scope.of_plan(graph_.plan_).names();
+    names.value = [this](const std::string& name) { return number(name); };
+    return evaluate_integer(expression, names, 0);
 }
 
 /// The mip or layer that a bind entry names at this step; −1 when it names none.
-static int index_at(const std::string& expression, int iteration) {
-    if (expression.empty()) return -1;
-    if (expression == "iteration") return iteration;
-    auto lookup = [&](const std::string& name) -> std::optional<double> {
-        if (name == "iteration") return iteration;
-        return std::nullopt;
-    };
-    return evaluate_integer(expression, lookup, 0);
+int PassContext::index_at(const std::string& expression) const {
+    return expression.empty() ? -1 : integer(expression);
 }
 
 glm::ivec3 PassContext::size(const std::string& name) const {
     const PlanSlot& s = slot(name);
-    int mip = index_at(s.bind.mip, iteration);
+    int mip = index_at(s.bind.mip);
     glm::ivec3 size = mip_size(texture(name).desc(), std::max(mip, 0));
     if (!s.bind.layer.empty() && texture(name).desc().kind == TextureKind::texture_2d_array) size.z = 1;
     return size;
@@ -152,8 +155,8 @@ Program& PassContext::use(const std::string& name) {
             texture = scene.lobe_albedo().id();
         else if (s && s->resource >= 0) {
             texture = graph_.allocations_
-                          .view(s->resource, s->bind.previous, index_at(s->bind.mip, iteration),
-                                index_at(s->bind.layer, iteration), sampler_is_2d(sampler.type))
+                          .view(s->resource, s->bind.previous, index_at(s->bind.mip), index_at(s->bind.layer),
+                                sampler_is_2d(sampler.type))
                           .id();
         } else {
             texture = graph_.neutral_texture(sampler.type, s ? s->neutral : glm::vec4(0),
@@ -170,11 +173,11 @@ Program& PassContext::use(const std::string& name) {
             continue;
         }
         const GpuTexture& texture = graph_.allocations_.texture(s->resource, s->bind.previous);
-        int mip = index_at(s->bind.mip, iteration);
+        int mip = index_at(s->bind.mip);
         for (const auto& [slot, wanted] : mips_)
             if (slot == s->use.slot) mip = wanted;
         mip = std::clamp(mip, 0, texture.desc().mips - 1);
-        int layer = index_at(s->bind.layer, iteration);
+        int layer = index_at(s->bind.layer);
         bool layered = texture.desc().kind != TextureKind::texture_2d && !image_is_2d(image.type);
         GLenum access = s->use.writes ? (s->use.reads ? GL_READ_WRITE : GL_WRITE_ONLY) : GL_READ_ONLY;
         glBindImageTexture(GLuint(image.unit), texture.id(), mip, layered, std::max(layer, 0), access,
@@ -223,7 +226,7 @@ void PassContext::bind_targets(const Targets& targets) {
     auto tuple_of = [&](const std::string& name) -> std::tuple<int, int, int> {
         if (name.empty()) return {-1, 0, -1};
         const PlanSlot& s = slot(name);
-        int mip = index_at(s.bind.mip, iteration), layer = index_at(s.bind.layer, iteration);
+        int mip = index_at(s.bind.mip), layer = index_at(s.bind.layer);
         return {s.resource, mip >= 0 ? mip : targets.mip, layer >= 0 ? layer : targets.layer};
     };
     std::vector<std::tuple<int, int, int>> colours;

@@ -62,6 +62,8 @@ class PassContext {
     bool has(const std::string& slot) const;
     /// A number by name, as expressions in graph files see it: a graph or pass parameter, a side of a resource.
     std::optional<double> number(const std::string& name) const;
+    /// The value of an expression of the graph file at this step, ≥ 0.
+    int integer(const std::string& expression) const;
     /// Size of a texture slot at the mip that it is bound to in this step.
     glm::ivec3 size(const std::string& slot) const;
     /// What earlier frames left in a slot's resource (incremental, persistent) stands; false when it was just reset.
@@ -93,6 +95,7 @@ class PassContext {
     const FrameConstants& frame() const;
     const GpuScene& scene(std::initializer_list<ScenePart> parts) const;
     const PlanSlot& slot(const std::string& name) const;
+    int index_at(const std::string& expression) const;
     Program& use(const std::string& program);
     void bind_targets(const Targets& targets);
 

@@ -5,6 +5,7 @@
 #include "core/problem.h"
 #include "core/text.h"
 #include "gpu/capabilities.h"
+#include "graph/graph_overlay.h"
 
 #include <algorithm>
 #include <cstring>
@@ -30,7 +31,9 @@ Graph::Graph(const std::filesystem::path& file, TimerMode timer_mode)
 Graph::~Graph() = default;
 
 void Graph::watch() {
-    watch_.watch(model_->files());
+    std::vector<std::filesystem::path> files = model_->files();
+    files.insert(files.end(), broken_chain_.begin(), broken_chain_.end());
+    watch_.watch(files);
 }
 
 // --- planning --------------------------------------------------------------------------------------------------------
@@ -209,7 +212,11 @@ bool Graph::poll_files() {
     std::vector<std::filesystem::path> changed = watch_.poll();
     if (changed.empty()) return false;
     dirty_ = true;
-    if (std::find(changed.begin(), changed.end(), model_->file().path) != changed.end()) {
+    auto is_of = [&](const std::vector<std::filesystem::path>& files) {
+        return std::find_first_of(changed.begin(), changed.end(), files.begin(), files.end()) != changed.end();
+    };
+    if (is_of(model_->file().files) || is_of(broken_chain_)) {
+        broken_chain_ = graph_chain(model_->file().path);
         try {
             auto next = std::make_unique<GraphModel>(read_graph_file(model_->file().path));
             next->set_default_rebuild(default_rebuild_);
@@ -226,6 +233,7 @@ bool Graph::poll_files() {
             }
             model_ = std::move(next);
             file_problem_.clear();
+            broken_chain_.clear();
             plan_problem_.clear();
             spdlog::info("graph '{}' reloaded", model_->file().name);
         } catch (const std::exception& problem) {

@@ -129,6 +129,7 @@ class Graph {
     std::map<std::string, std::string> broke_; ///< pass id → why it could not run in the newest frame
     std::vector<std::filesystem::path> newest_files_;
     std::string file_problem_, plan_problem_;
+    std::vector<std::filesystem::path> broken_chain_; ///< the files of a graph that could not be reloaded
     SceneFacts planned_facts_;
     Buffer empty_buffer_; ///< for storage blocks that nothing fills
     Sampler comparison_sampler_;

@@ -5,7 +5,9 @@
 #include "core/paths.h"
 #include "core/scanner.h"
 #include "core/text.h"
+#include "graph/graph_overlay.h"
 #include "graph/pass.h"
+#include "graph/scope.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -77,8 +79,8 @@ class ObjectReader {
     std::vector<std::string> known_;
 };
 
-ParameterInfo read_parameter(const std::string& name, const json& value, ErrorList& errors) {
-    ObjectReader reader(value, "parameters." + name, errors);
+ParameterInfo read_parameter(const std::string& name, const json& value, const std::string& where, ErrorList& errors) {
+    ObjectReader reader(value, where, errors);
     ParameterInfo info;
     info.name = name;
     info.unit = reader.text("unit");
@@ -119,9 +121,9 @@ ParameterInfo read_parameter(const std::string& name, const json& value, ErrorLi
     return info;
 }
 
-ResourceDeclaration read_resource(const std::string& name, const json& value, std::vector<std::string>& fields,
-                                  ErrorList& errors) {
-    ObjectReader reader(value, "resources." + name, errors);
+ResourceDeclaration read_resource(const std::string& name, const json& value, const std::string& where,
+                                  std::vector<std::string>& fields, ErrorList& errors) {
+    ObjectReader reader(value, where, errors);
     ResourceDeclaration resource;
     resource.name = name;
     resource.declared_by = "graph file";
@@ -245,8 +247,9 @@ RepeatEntry read_repeat(const json& value, ObjectReader& node, ErrorList& errors
         return repeat;
     }
     ObjectReader reader(value, node.where() + ".repeat", errors);
-    const std::vector<std::string> kinds = {"count", "mips", "layers", "lights", "views", "bounces"};
-    repeat.over = reader.text("over", "count");
+    const std::vector<std::string> kinds = {"count", "mips", "layers", "lights", "views", "bounces", "loop"};
+    // A loop and nothing else: the steps of the pass that declares it.
+    repeat.over = reader.text("over", value.size() == 1 && value.contains("loop") ? "loop" : "count");
     if (std::find(kinds.begin(), kinds.end(), repeat.over) == kinds.end()) {
         reader.error("nothing repeats over '" + repeat.over + "'" + did_you_mean(repeat.over, kinds));
     }
@@ -320,90 +323,90 @@ NodeEntry read_node(const json& value, const std::string& where, ErrorList& erro
 
 std::filesystem::path find_graph(const std::string& name) {
     namespace fs = std::filesystem;
-    if (fs::is_regular_file(name)) return name;
-    fs::path in_assets = assets_folder() / "graphs" / (name + ".json");
-    if (fs::is_regular_file(in_assets)) return in_assets;
+    std::error_code ignored; // a name that is too long is no file's
+    for (const fs::path& file :
+         {fs::path(name), fs::path(name + ".json"), assets_folder() / "graphs" / (name + ".json")})
+        if (!name.empty() && fs::is_regular_file(file, ignored)) return file;
     std::vector<std::string> names;
-    std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(assets_folder() / "graphs", ignored)) {
         if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
     }
     std::sort(names.begin(), names.end());
-    throw Error("there is no graph '" + name + "'" + did_you_mean(name, names));
+    throw Error("there is no graph '" + shortened(name) + "'" + did_you_mean(name, names));
 }
 
-bool GraphFile::may_lack(const std::string& expression_name) const {
-    bool parameter = expression_name.starts_with("graph.") || expression_name.find('.') == std::string::npos;
-    return parameter ? parameters_incomplete : incomplete;
+namespace {
+
+/// What the reader calls an entry in errors: with the file that said the last of it where there are several.
+std::string place_of(const WholeGraph& graph, const std::string& where, const std::string& key) {
+    auto origin = graph.origins.find(key);
+    bool several = graph.files.size() > 1;
+    std::string base = several ? graph.files.back().filename().string() : "";
+    std::string file = origin != graph.origins.end() ? origin->second : base;
+    return file.empty() ? where : file + ": " + where;
 }
 
-GraphFile load_graph_file(const std::filesystem::path& path) {
-    GraphFile file = read_graph_file(path);
-    ErrorList errors;
-    for (const std::string& message : file.errors)
-        errors.add(message);
-    errors.throw_if_any(path.string());
-    return file;
-}
-
-GraphFile read_graph_file(const std::filesystem::path& path) {
-    GraphFile file;
-    file.path = path;
-    file.name = path.stem().string();
-    json root = read_json_file(path);
-    ErrorList errors;
-    size_t told = 0;
-    // Whether what was read last has errors; if so, a part of the file is not known in full.
-    auto bad = [&](bool& incomplete) {
-        bool any = errors.messages().size() > std::exchange(told, errors.messages().size());
-        incomplete = incomplete || any;
-        return any;
-    };
-    {
-        ObjectReader reader(root, "graph", errors);
-        file.about = reader.text("about");
-        if (const json* transport = reader.get("transport")) file.transport = read_transport(*transport, errors);
-        const json* version = reader.get("version");
-        if (!version || *version != 1) reader.error("'version' must be 1");
-        told = errors.messages().size();
-        if (const json* parameters = reader.get("parameters"); parameters && parameters->is_object()) {
-            for (const auto& [name, value] : parameters->items()) {
-                ParameterInfo info = read_parameter(name, value, errors);
-                if (!bad(file.parameters_incomplete)) file.parameters.push_back(std::move(info));
-            }
-        } else if (parameters) {
-            reader.error("'parameters' must be an object");
-            bad(file.parameters_incomplete);
-        }
-        if (const json* resources = reader.get("resources"); resources && resources->is_object()) {
-            for (const auto& [name, value] : resources->items()) {
-                ResourceDeclaration resource = read_resource(name, value, file.set_fields[name], errors);
-                if (!bad(file.incomplete)) file.resources.push_back(std::move(resource));
-            }
-        } else if (resources) {
-            reader.error("'resources' must be an object");
-            bad(file.incomplete);
-        }
-        const json* passes = reader.get("passes");
-        if (passes && passes->is_array() && !passes->empty()) {
-            for (size_t i = 0; i < passes->size(); ++i) {
-                NodeEntry node = read_node((*passes)[i], fmt::format("passes[{}]", i), errors);
-                node.doubtful = bad(file.incomplete);
-                file.nodes.push_back(std::move(node));
-            }
-        } else {
-            reader.error("'passes' must be a list of at least one pass");
-        }
+void read_members(const WholeGraph& graph, GraphFile& file, ErrorList& errors) {
+    const json root = graph.root;
+    ObjectReader reader(root, "graph", errors);
+    file.about = reader.text("about");
+    if (const json* transport = reader.get("transport")) file.transport = read_transport(*transport, errors);
+    const json* version = reader.get("version");
+    if (!version || *version != 1) reader.error("'version' must be 1");
+    if (const json* parameters = reader.get("parameters"); parameters && parameters->is_object()) {
+        for (const auto& [name, value] : parameters->items())
+            file.parameters.push_back(
+                read_parameter(name, value, place_of(graph, "parameters." + name, "parameters." + name), errors));
+    } else if (parameters) {
+        reader.error("'parameters' must be an object");
     }
-    if (bad(file.incomplete)) file.parameters_incomplete = true; // an unknown key may be one of these, misspelt
+    if (const json* resources = reader.get("resources"); resources && resources->is_object()) {
+        for (const auto& [name, value] : resources->items())
+            file.resources.push_back(read_resource(
+                name, value, place_of(graph, "resources." + name, "resources." + name), file.set_fields[name], errors));
+    } else if (resources) {
+        reader.error("'resources' must be an object");
+    }
+    const json* passes = reader.get("passes");
+    if (!passes || !passes->is_array() || passes->empty()) {
+        reader.error("'passes' must be a list of at least one pass");
+        return;
+    }
+    for (size_t i = 0; i < passes->size(); ++i) {
+        std::string id = pass_id((*passes)[i]);
+        std::string where = graph.files.size() > 1 && !id.empty() ? "pass '" + id + "'" : fmt::format("passes[{}]", i);
+        file.nodes.push_back(read_node((*passes)[i], place_of(graph, where, "passes." + id), errors));
+    }
+}
+
+/// Names that are taken.
+void check_names(const GraphFile& file, ErrorList& errors) {
     std::set<std::string> ids;
-    for (NodeEntry& node : file.nodes) {
+    for (const NodeEntry& node : file.nodes) {
         if (!ids.insert(node.id).second) errors.add("two passes have the id '" + node.id + "'");
         if (node.id == "graph")
             errors.add("a pass cannot have the id 'graph': that name is the graph's own parameters");
-        node.doubtful = bad(file.incomplete) || node.doubtful;
     }
-    file.errors = errors.messages();
+    std::vector<std::string> taken = scene_fact_names();
+    taken.insert(taken.end(), {"width", "height", "iteration", "true", "false"});
+    for (const ParameterInfo& parameter : file.parameters) {
+        if (std::find(taken.begin(), taken.end(), parameter.name) != taken.end())
+            errors.add(fmt::format("invalid parameter name '{}': expressions know that name already", parameter.name));
+    }
+}
+
+} // namespace
+
+GraphFile read_graph_file(const std::filesystem::path& path) {
+    WholeGraph graph = expand_graph(path);
+    GraphFile file;
+    file.path = path;
+    file.name = path.stem().string();
+    file.files = graph.files;
+    ErrorList errors;
+    read_members(graph, file, errors);
+    check_names(file, errors);
+    errors.throw_if_any(path.string());
     return file;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// A graph file (assets/graphs/*.json): an ordered list of passes with what differs from their defaults.
+// A graph file (assets/graphs/*.json): an ordered list of passes with what differs from their defaults. It may start
+// from another (`extends`; graph_overlay.h); here it is whole. passes/graph/README.md is the reference.
 //
 //   { "version": 1, "about": "…",
 //     "transport": {"bounces": 0, "diffuse_only": false, "parts": ["out.direct", "out.emission"],
@@ -13,8 +14,8 @@
 //     "passes": [ { "id": "blur", "type": "compute", "shader": "blur.comp", "params": {"radius": 3},
 //                   "bind": {"blur.source": "out.direct", "blur.target": {"resource": "blur.half", "mip":
 //                   "iteration"}}, "dispatch": "blur.half", "repeat": {"over": "mips", "of": "blur.half", "from": 1,
-//                   "loop": "name"}, "params_of": "other", "enabled": true, "needs": "emissive_materials + environment"
-//                   } ] }
+//                   "loop": "name"}, "params_of": "other", "enabled": true, "needs": "emissive_materials ||
+//                   environment" } ] }
 
 #include "core/parameters.h"
 #include "graph/resource.h"
@@ -36,7 +37,7 @@ struct BindEntry {
 };
 
 struct RepeatEntry {
-    std::string over; ///< "", "count", "mips", "layers", "lights", "views"
+    std::string over; ///< "", "count", "mips", "layers", "lights", "views", "loop"
     std::string of;   ///< resource for mips and layers
     std::string count = "1";
     std::string from = "0";
@@ -56,9 +57,8 @@ struct NodeEntry {
     std::map<std::string, BindEntry> bind;
     DispatchEntry dispatch;
     RepeatEntry repeat;
-    std::string needs; ///< expression over scene facts; 0: the scene does not need the pass
+    std::string needs; ///< expression; 0: the pass is not needed
     bool enabled = true;
-    bool doubtful = false; ///< something of it could not be read: what follows from it says nothing
 };
 
 /// The light transport that a graph models, so that it is held to a reference of the same.
@@ -80,20 +80,13 @@ struct GraphFile {
     std::vector<ResourceDeclaration> resources; ///< only the fields that `set_fields` names were given
     std::map<std::string, std::vector<std::string>> set_fields;
     std::vector<NodeEntry> nodes;
-    /// What is wrong with the file itself; GraphModel tells it with what else is wrong.
-    std::vector<std::string> errors;
-    // Because of them, there may be more than the above:
-    bool parameters_incomplete = false;
-    bool incomplete = false; ///< resources and passes
-    /// Whether an expression's name that is not found may be one that could not be read.
-    bool may_lack(const std::string& name) const;
+    std::vector<std::filesystem::path> files; ///< the file and what it extends, and so on
 };
 
-/// Finds a graph by path or by name in the assets' graphs folder. Throws Error with the nearest.
+/// Finds a graph by path, or by name in the assets' graphs folder; both with or without ".json". Throws Error with the
+/// nearest.
 std::filesystem::path find_graph(const std::string& name);
-/// Reads all that can be read, and collects `errors`. Throws Error only for what is no JSON or no file.
+/// Throws Error that lists every error of the file, and of those that it extends.
 GraphFile read_graph_file(const std::filesystem::path& path);
-/// The same; throws Error that lists every error of the file.
-GraphFile load_graph_file(const std::filesystem::path& path);
 
 } // namespace bounce

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace bounce {
 
@@ -20,6 +21,35 @@ Program* PassNode::program(const std::string& name) const {
     return nullptr;
 }
 
+/// What the pass itself binds the slot to; no resource if it binds none.
+static BindEntry own_binding(const PassNode& node, const std::string& slot) {
+    const auto& bindings = node.description->bindings;
+    if (auto bound = bindings.find(slot); bound != bindings.end()) return {bound->second, "", "", false};
+    for (const auto& program : node.programs) {
+        for (const ShaderSlot& known : program->slots())
+            if (known.name == slot && !known.from.empty()) return {known.from, known.from_mip, known.from_layer, false};
+    }
+    return {};
+}
+
+BindEntry PassNode::target_of(const std::string& slot) const {
+    BindEntry target{slot, "", "", false};
+    std::set<std::string> seen;
+    while (seen.insert(target.resource).second) {
+        if (auto bound = entry.bind.find(target.resource); bound != entry.bind.end()) {
+            if (seen.size() == 1) return bound->second;
+            target.resource = bound->second.resource;
+            break;
+        }
+        BindEntry next = own_binding(*this, target.resource);
+        if (next.resource.empty()) break;
+        // It follows what it names, if that is a slot of the pass, too.
+        target.resource = next.resource;
+        if (seen.size() == 1) target = next;
+    }
+    return target;
+}
+
 static std::unique_ptr<Pass> make_pass(const std::string& type) {
     for (const PassType& known : pass_types()) {
         if (known.name == type) return known.make();
@@ -27,23 +57,8 @@ static std::unique_ptr<Pass> make_pass(const std::string& type) {
     throw Error("there is no pass type '" + type + "'");
 }
 
-/// A scene in which nearly every pass has something to do, for a graph that is judged before its scene is known.
-static SceneFacts usual_scene() {
-    SceneFacts facts;
-    facts.triangles = facts.vertices = 1000;
-    facts.materials = facts.instances = 1;
-    facts.glossy_materials = facts.emissive_materials = facts.alpha_tested_materials = 1;
-    facts.blended_materials = 1;
-    facts.point_lights = facts.spot_lights = facts.directional_lights = 1;
-    facts.environment = true;
-    facts.bounds = facts.bounds_over_animation = {glm::vec3(-1), glm::vec3(1)};
-    return facts;
-}
-
 GraphModel::GraphModel(GraphFile file) : file_(std::move(file)) {
     ErrorList errors;
-    for (const std::string& message : file_.errors)
-        errors.add(message);
     graph_parameters_.declare_shader_parameter(rebuild_parameter());
     for (const ParameterInfo& info : file_.parameters) {
         if (info.name == k_rebuild) {
@@ -55,9 +70,6 @@ GraphModel::GraphModel(GraphFile file) : file_(std::move(file)) {
         graph_parameters_.declare_shader_parameter(declared);
     }
     for (const NodeEntry& entry : file_.nodes) {
-        bool known =
-            std::any_of(pass_types().begin(), pass_types().end(), [&](auto& t) { return t.name == entry.type; });
-        if (!known || (entry.type == "compute" && entry.shader.empty())) continue; // told already
         auto node = std::make_unique<PassNode>();
         node->entry = entry;
         node->enabled = entry.enabled;
@@ -82,8 +94,6 @@ GraphModel::GraphModel(GraphFile file) : file_(std::move(file)) {
             errors.add(std::string("transport: ") + error.what());
         }
     }
-    if (errors.empty()) return;
-    make_plan(*this, usual_scene(), {1280, 720}, errors);
     errors.throw_if_any(file_.path.string());
 }
 
@@ -140,20 +150,53 @@ static std::optional<double> number_of(const Parameter* parameter) {
     return std::nullopt;
 }
 
-static std::optional<double> graph_number(const ParameterSet& parameters, std::string name) {
-    if (name.starts_with("graph.")) name = name.substr(6);
-    return number_of(parameters.find(name));
+static const Parameter* graph_parameter(const ParameterSet& parameters, const std::string& name) {
+    return parameters.find(name.starts_with("graph.") ? name.substr(6) : name);
+}
+
+/// What a value of the graph file may be computed from: the graph's own parameters.
+static Names graph_names(const ParameterSet& parameters) {
+    Names names([&parameters](const std::string& name) { return number_of(graph_parameter(parameters, name)); });
+    names.choices = [&parameters](const std::string& name) {
+        const Parameter* found = graph_parameter(parameters, name);
+        return found && found->info.kind == ParameterKind::enumeration ? &found->info.choices : nullptr;
+    };
+    names.known = [&parameters] {
+        std::vector<std::string> known;
+        for (const std::string& name : parameters.names())
+            known.push_back("graph." + name);
+        return known;
+    };
+    return names;
+}
+
+const Parameter* GraphModel::find_number(const std::string& name) const {
+    if (const Parameter* own = graph_parameter(graph_parameters_, name)) return own;
+    size_t dot = name.find('.');
+    const PassNode* node = dot == std::string::npos ? nullptr : find_node(name.substr(0, dot));
+    return node ? parameter_of(*node, name.substr(dot + 1)) : nullptr;
 }
 
 std::optional<double> GraphModel::number(const std::string& name) const {
-    if (auto found = graph_number(graph_parameters_, name)) {
-        if (noting_) noted_.insert(name.starts_with("graph.") ? name : "graph." + name);
-        return found;
+    const Parameter* found = find_number(name);
+    if (noting_ && found) note_number(name);
+    return number_of(found);
+}
+
+const std::vector<std::string>* GraphModel::choices(const std::string& name) const {
+    const Parameter* found = find_number(name);
+    return found && found->info.kind == ParameterKind::enumeration ? &found->info.choices : nullptr;
+}
+
+/// By the names that a person sets: a pass's name may stand for a parameter of another pass (params_of).
+void GraphModel::note_number(const std::string& name) const {
+    const PassNode* node = find_node(name.substr(0, name.find('.')));
+    if (!node || graph_parameter(graph_parameters_, name)) {
+        noted_.insert(name.starts_with("graph.") ? name : "graph." + name);
+        return;
     }
-    size_t dot = name.find('.');
-    const PassNode* node = dot == std::string::npos ? nullptr : find_node(name.substr(0, dot));
-    if (node && noting_) noted_.insert(name);
-    return node ? number_of(node->parameters.find(name.substr(dot + 1))) : std::nullopt;
+    noted_.insert(name);
+    if (!node->entry.params_of.empty()) noted_.insert(node->entry.params_of + name.substr(name.find('.')));
 }
 
 std::set<std::string> GraphModel::note_numbers(bool on) const {
@@ -165,8 +208,7 @@ void GraphModel::apply_file_values(PassNode& node, ErrorList& errors) {
     for (const auto& [name, text] : node.entry.params_json) {
         try {
             if (auto expression = as_expression(text)) {
-                double value =
-                    evaluate(*expression, [&](const std::string& n) { return graph_number(graph_parameters_, n); });
+                double value = evaluate(*expression, graph_names(graph_parameters_));
                 node.parameters.set_text(name, fmt::format("{}", value), ParameterOrigin::graph);
             } else {
                 node.parameters.set_json(name, nlohmann::json::parse(text), ParameterOrigin::graph);
@@ -175,8 +217,7 @@ void GraphModel::apply_file_values(PassNode& node, ErrorList& errors) {
             // A parameter of a shader that does not scan for the moment is not unknown, only out of sight.
             bool broken =
                 std::any_of(node.programs.begin(), node.programs.end(), [](auto& p) { return !p->errors().empty(); });
-            bool unjudged = file_.parameters_incomplete && as_expression(text); // it may name what could not be read
-            if ((!broken || node.parameters.find(name)) && !unjudged)
+            if (!broken || node.parameters.find(name))
                 errors.add(fmt::format("pass '{}': {}", node.id(), error.what()));
         }
     }
@@ -243,8 +284,7 @@ void GraphModel::set(const std::string& name, const std::string& text, Parameter
             Parameter* target = node->parameters.find(derived);
             auto expression = as_expression(json);
             if (!target || !expression || target->origin > ParameterOrigin::graph) continue;
-            double value =
-                evaluate(*expression, [&](const std::string& n) { return graph_number(graph_parameters_, n); });
+            double value = evaluate(*expression, graph_names(graph_parameters_));
             node->parameters.set_text(derived, fmt::format("{}", value), ParameterOrigin::graph);
             changes_.insert(node->id() + "." + derived);
             if (!target->info.in_shader) node->pass->forget_growth();
@@ -264,7 +304,7 @@ std::vector<std::string> GraphModel::parameter_names() const {
 }
 
 std::vector<std::filesystem::path> GraphModel::files() const {
-    std::vector<std::filesystem::path> files = {file_.path};
+    std::vector<std::filesystem::path> files = file_.files;
     for (const auto& node : nodes_) {
         for (const auto& program : node->programs) {
             for (const auto& file : program->files()) {

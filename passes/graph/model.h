@@ -22,6 +22,9 @@ struct PassNode {
 
     const std::string& id() const { return entry.id; }
     Program* program(const std::string& name) const;
+    /// What a slot is bound to: by the graph file, else by the pass ("from" in its shader, PassDescription::bind), else
+    /// the resource of its own name.
+    BindEntry target_of(const std::string& slot) const;
 };
 
 /// Which passes run in a frame.
@@ -74,6 +77,8 @@ class GraphModel {
     /// Of the graph's own parameter "rebuild", which every graph has.
     Rebuild rebuild() const;
     void set_default_rebuild(Rebuild rebuild);
+    /// The choices of an enumeration, by the same names; null for what is none.
+    const std::vector<std::string>* choices(const std::string& name) const;
     /// Every parameter as "id.name".
     std::vector<std::string> parameter_names() const;
 
@@ -104,6 +109,8 @@ class GraphModel {
   private:
     void apply_file_values(PassNode& node, ErrorList& errors);
     void scan_by_values(PassNode& node);
+    const Parameter* find_number(const std::string& name) const;
+    void note_number(const std::string& name) const;
     bool is_made(const std::string& resource) const;
     std::vector<std::string> off_among(std::vector<const PassNode*> open) const;
 

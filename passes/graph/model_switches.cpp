@@ -7,15 +7,10 @@
 
 namespace bounce {
 
-static std::string target_of(const PassNode& node, const std::string& slot) {
-    auto bound = node.entry.bind.find(slot);
-    return bound != node.entry.bind.end() ? bound->second.resource : slot;
-}
-
 static bool writes(const PassNode& node, const std::string& resource) {
     for (const auto& program : node.programs) {
         for (const ShaderSlot& slot : program->slots())
-            if (slot.writes && target_of(node, slot.name) == resource) return true;
+            if (slot.writes && node.target_of(slot.name).resource == resource) return true;
     }
     return false;
 }
@@ -32,7 +27,7 @@ std::vector<std::string> GraphModel::off_among(std::vector<const PassNode*> open
         if (!node.enabled) ids.push_back(node.id());
         for (const auto& program : node.programs) {
             for (const ShaderSlot& slot : program->slots()) {
-                std::string resource = target_of(node, slot.name);
+                std::string resource = node.target_of(slot.name).resource;
                 if (!slot.reads || slot.writes || is_made(resource)) continue;
                 for (const auto& maker : nodes_) {
                     bool known = std::find(open.begin(), open.end(), maker.get()) != open.end();

@@ -3,6 +3,7 @@
 #include "core/digest.h"
 #include "graph/frame_constants.h"
 #include "graph/graph.h"
+#include "graph/scope.h"
 
 #include <algorithm>
 
@@ -61,8 +62,10 @@ class OwnInputs {
             bytes(lasting(), *frame_.facts, range);
         for (ScenePart part : looked.scene)
             scene(part);
+        Scope scope{model_, frame_.facts, {}, {}, {}, {}};
+        scope.of_plan(plan_);
         for (const std::string& name : looked.numbers)
-            lasting().add(name).add(number_in_frame(model_, plan_, name).value_or(0));
+            lasting().add(name).add(scope.number(name).value_or(0));
     }
 
     Revision result() const {

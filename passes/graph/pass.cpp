@@ -38,8 +38,11 @@ void Declaration::uses(const std::string& program) {
             known->reads = known->reads || slot.reads;
             known->writes = known->writes || slot.writes;
             known->optional = known->optional && slot.optional;
+            if (!known->neutral) known->neutral = slot.neutral;
+            if (known->required_if.empty()) known->required_if = slot.required_if;
         } else {
-            uses_.push_back({slot.name, usage, slot.reads, slot.writes, slot.optional, slot.where});
+            uses_.push_back(
+                {slot.name, usage, slot.reads, slot.writes, slot.optional, slot.where, slot.neutral, slot.required_if});
         }
     }
 }

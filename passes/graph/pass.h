@@ -8,7 +8,9 @@
 #include "scene/scene.h"
 
 #include <functional>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,8 +27,10 @@ struct SlotUse {
     Usage usage = Usage::sampled;
     bool reads = true;
     bool writes = false;
-    bool optional = false; ///< reads the neutral value when nothing produces it
-    std::string where;     ///< for errors: "surface/direct.comp:12" or the pass id
+    bool optional = false;                           ///< reads the neutral value when nothing produces it
+    std::string where;                               ///< for errors: "surface/direct.comp:12" or the pass id
+    std::optional<glm::vec4> neutral = std::nullopt; ///< as declared with the slot
+    std::string required_if = {};                    ///< expression over the pass's parameters: not optional then
 };
 
 /// One program of a pass.
@@ -46,9 +50,12 @@ class PassDescription {
     }
     /// A uniform that execute() sets by PassContext::set (a draw's index, say).
     void constant(const std::string& name) { constants.push_back(name); }
+    /// The slot is bound to that resource unless the graph file binds another.
+    void bind(const std::string& slot, const std::string& resource) { bindings[slot] = resource; }
 
     std::vector<ProgramEntry> programs;
     std::vector<std::string> constants;
+    std::map<std::string, std::string> bindings;
 };
 
 /// A number that a pass keeps on the GPU, shown in the graph panel and in reports.

@@ -2,7 +2,6 @@
 // The plan of one frame: which passes run in which order, what each slot is bound to, sizes, barriers, and which passes
 // declined and why. Made without OpenGL, so `bounce graph` can print it anywhere.
 
-#include "core/error.h"
 #include "graph/graph_file.h"
 #include "graph/pass.h"
 
@@ -79,20 +78,10 @@ std::string barrier_text(GLbitfield bits);
 
 /// "width", "height", "depth", "mips" or "count" of a resource.
 std::optional<double> side_of(const PlanResource& resource, const std::string& side);
-/// A count of what the scene holds, by the name that `needs` has for it ("emissive_materials").
-std::optional<double> scene_fact(const SceneFacts& facts, const std::string& name);
 /// Fills in the barriers of passes and of their steps, from what each reads and writes.
 void place_barriers(Plan& plan);
 
 class GraphModel;
-/// A number by name while a frame runs: a graph or pass parameter ("id.name"), a side of a resource ("a.b.width").
-std::optional<double> number_in_frame(const GraphModel& model, const Plan& plan, const std::string& name);
-/// Plans a frame; collects all that is wrong, as far as one error does not follow from another. The plan is to be used
-/// only when there is none.
-Plan make_plan(const GraphModel& model, const SceneFacts& facts, glm::ivec2 size, ErrorList& errors);
-/// What would otherwise only fail when a frame runs: dispatch sizes, bound mips and layers, samplers and images of
-/// another kind than their resource.
-void check_plan(const GraphModel& model, const SceneFacts& facts, const Plan& plan, ErrorList& errors);
 /// Passes in order, who reads and writes what, sizes in bytes, barriers, declined passes with reasons.
 std::string plan_text(const GraphModel& model, const Plan& plan);
 /// The same as a Graphviz digraph.

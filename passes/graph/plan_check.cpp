@@ -1,7 +1,6 @@
 // Finds what is wrong with a plan before a frame runs into it.
 #include "core/text.h"
-#include "graph/expression.h"
-#include "graph/model.h"
+#include "graph/declared.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -61,36 +60,18 @@ class PlanChecker {
         if (std::find(known.begin(), known.end(), text) == known.end()) errors_.add(text);
     }
 
-    std::optional<double> number(const std::string& name, int iteration) const {
-        if (name == "iteration") return iteration;
-        if (name == "width") return plan_.size.x;
-        if (name == "height") return plan_.size.y;
-        if (name == "lights") return double(facts_.lights());
-        if (name == "triangles") return double(facts_.triangles);
-        size_t last = name.rfind('.');
-        const PlanResource* resource = last == std::string::npos ? nullptr : plan_.find_resource(name.substr(0, last));
-        auto side = resource ? side_of(*resource, name.substr(last + 1)) : std::nullopt;
-        return side ? side : model_.number(name);
-    }
-
     /// Evaluates at the first and the last step; returns the greater value.
-    std::optional<int> evaluate_steps(const PlanPass& pass, const std::string& what, const std::string& expression,
-                                      bool iteration_only) {
+    std::optional<int> evaluate_steps(const PlanPass& pass, const std::string& what, const std::string& expression) {
         std::optional<int> greatest;
-        bool unjudged = false;
         for (int step : {pass.repeat_from, pass.repeat_to - 1}) {
             if (step < pass.repeat_from) continue; // no steps at all
             try {
-                auto lookup = [&](const std::string& name) -> std::optional<double> {
-                    if (iteration_only && name != "iteration") return std::nullopt;
-                    auto value = number(name, step);
-                    unjudged = unjudged || (!value && model_.file().may_lack(name));
-                    return value;
-                };
-                greatest = std::max(greatest.value_or(0), evaluate_integer(expression, lookup, 0));
+                Scope scope{model_, &facts_, {}, {}, {}, step};
+                greatest =
+                    std::max(greatest.value_or(0), evaluate_integer(expression, scope.of_plan(plan_).names(), 0));
             } catch (const Error& failure) {
                 std::string at = pass.repeat_to - pass.repeat_from > 1 ? fmt::format(" in step {}", step) : "";
-                if (!unjudged) error(pass, fmt::format(": {}{}: {}", what, at, failure.what()));
+                error(pass, fmt::format(": {}{}: {}", what, at, failure.what()));
                 return std::nullopt;
             }
         }
@@ -107,8 +88,7 @@ class PlanChecker {
         int layers = desc.kind == TextureKind::texture_2d ? 1 : desc.size.z;
         auto check = [&](const char* what, const std::string& expression, int count) {
             if (expression.empty()) return;
-            auto index =
-                evaluate_steps(pass, fmt::format("the {} of slot '{}'", what, slot.use.slot), expression, true);
+            auto index = evaluate_steps(pass, fmt::format("the {} of slot '{}'", what, slot.use.slot), expression);
             if (index && *index >= count)
                 error(pass, fmt::format(" binds {} {} of '{}', which has {}", what, *index, name, count));
         };
@@ -151,7 +131,7 @@ class PlanChecker {
     void check_dispatch(const DispatchEntry& dispatch, const PlanPass& pass) {
         if (!dispatch.indirect.empty()) return;
         for (const std::string& threads : dispatch.threads)
-            evaluate_steps(pass, "'dispatch'", threads, false);
+            evaluate_steps(pass, "'dispatch'", threads);
         if (!dispatch.threads.empty()) return;
         bool slot_found = false;
         for (const PlanSlot& slot : pass.slots) {
@@ -160,7 +140,7 @@ class PlanChecker {
             slot_found =
                 slot_found || (texture && slot.resource >= 0 && (dispatch.resource.empty() ? slot.use.writes : named));
         }
-        if (slot_found || model_.file().incomplete) return;
+        if (slot_found) return;
         if (dispatch.resource.empty()) {
             error(pass, " has nothing to dispatch over: give \"dispatch\": [x, y, z] or the name of a texture");
             return;

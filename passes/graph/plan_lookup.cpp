@@ -1,8 +1,7 @@
-// Finds things in a plan by name, and counts of the scene.
-#include "graph/model.h"
+// Finds things in a plan by name.
+#include "graph/plan.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace bounce {
 
@@ -44,36 +43,6 @@ std::optional<double> side_of(const PlanResource& resource, const std::string& s
     if (side == "depth") return resource.texture.size.z;
     if (side == "mips") return resource.texture.mips;
     if (side == "count") return double(resource.count);
-    return std::nullopt;
-}
-
-std::optional<double> number_in_frame(const GraphModel& model, const Plan& plan, const std::string& name) {
-    size_t last = name.rfind('.');
-    if (last != std::string::npos) {
-        const PlanResource* resource = plan.find_resource(name.substr(0, last));
-        auto side = resource ? side_of(*resource, name.substr(last + 1)) : std::nullopt;
-        if (side) return side;
-    }
-    return model.number(name);
-}
-
-std::optional<double> scene_fact(const SceneFacts& facts, const std::string& name) {
-    const std::pair<const char*, double> known_facts[] = {
-        {"lights", double(facts.lights())},
-        {"point_lights", double(facts.point_lights)},
-        {"spot_lights", double(facts.spot_lights)},
-        {"directional_lights", double(facts.directional_lights)},
-        {"emissive_materials", double(facts.emissive_materials)},
-        {"glossy_materials", double(facts.glossy_materials)},
-        {"alpha_tested_materials", double(facts.alpha_tested_materials)},
-        {"blended_materials", double(facts.blended_materials)},
-        {"dynamic_instances", double(facts.dynamic_instances)},
-        {"animated_lights", facts.animated_lights ? 1.0 : 0.0},
-        {"environment", facts.environment ? 1.0 : 0.0},
-    };
-    for (const auto& [known, value] : known_facts) {
-        if (name == known) return value;
-    }
     return std::nullopt;
 }
 

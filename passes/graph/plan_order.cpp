@@ -7,11 +7,11 @@
 
 namespace bounce {
 
-std::vector<int> order_passes(const std::vector<Declared>& passes, const std::vector<ResourceDeclaration>& resources,
-                              ErrorList& errors) {
+std::vector<int> order_passes(const PlanDraft& draft, ErrorList& errors) {
+    const std::vector<Declared>& passes = draft.passes;
     int n = int(passes.size());
     std::vector<std::set<int>> after(n); // after[i]: passes that must come before i
-    for (const ResourceDeclaration& resource : resources) {
+    for (const ResourceDeclaration& resource : draft.resources) {
         std::vector<int> writers, readers;
         for (int p = 0; p < n; ++p) {
             if (!passes[p].declined.empty()) continue;

@@ -6,8 +6,10 @@ namespace bounce {
 
 constexpr int64_t k_block = 2048, k_row = 32768; // as in glsl/lib/prefix_sum.comp
 
-void describe_prefix_sum(PassDescription& description) {
+void describe_prefix_sum(PassDescription& description, const std::string& values) {
     description.program("prefix_sum", {"lib/prefix_sum.comp"});
+    description.bind("prefix.values", values);
+    description.bind("prefix.sums", values + "_sums");
     description.constant("prefix_stage");
     description.constant("prefix_count");
 }

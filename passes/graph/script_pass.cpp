@@ -2,7 +2,6 @@
 
 #include "core/error.h"
 #include "graph/context.h"
-#include "graph/expression.h"
 
 #include <fmt/format.h>
 
@@ -25,16 +24,8 @@ void ScriptPass::execute(PassContext& context) {
     }
     glm::ivec3 threads(1);
     if (!dispatch.threads.empty()) {
-        auto lookup = [&](const std::string& name) -> std::optional<double> {
-            if (name == "width") return context.frame(&FrameConstants::resolution).x;
-            if (name == "height") return context.frame(&FrameConstants::resolution).y;
-            if (name == "iteration") return context.iteration;
-            if (name == "lights") return context.frame(&FrameConstants::light_count);
-            if (name == "triangles") return double(context.fact(&SceneFacts::triangles));
-            return context.number(name);
-        };
         for (size_t i = 0; i < dispatch.threads.size(); ++i)
-            threads[int(i)] = evaluate_integer(dispatch.threads[i], lookup, 0);
+            threads[int(i)] = context.integer(dispatch.threads[i]);
     } else {
         // One thread a texel of the named resource, or of the first texture that the shader writes.
         const PlanSlot* over = nullptr;

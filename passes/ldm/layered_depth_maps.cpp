@@ -17,7 +17,7 @@ class LayeredDepthMapsPass : public Pass {
         description.program("build_by_compute", {"ldm/build.comp"});
         for (const char* name : {"start_batch", "finish_batch", "list_lengths", "write_arrays"})
             description.program(name, {std::string("ldm/") + name + ".comp"});
-        describe_prefix_sum(description);
+        describe_prefix_sum(description, "ldm.places");
         for (const char* name : {"batch", "draw_count", "slot_count", "bands", "marks_from"})
             description.constant(name);
         ParameterSet& p = description.parameters;

@@ -16,7 +16,7 @@ class PhotonsPass : public Pass {
     void describe(PassDescription& description) override {
         for (const char* name : {"primaries", "trace_photons", "store_photons", "finish_photons"})
             description.program(name, {std::string("ldm/") + name + ".comp"});
-        describe_prefix_sum(description);
+        describe_prefix_sum(description, "photons.places");
         for (const char* name : {"batch", "emitter_count", "value_count"})
             description.constant(name);
         description.parameters.add("second_axes", second_axes_, {0, 64}, "axes",

@@ -14,7 +14,7 @@ class SplatPass : public Pass {
         description.program("boxes", {"ldm/splat_boxes.comp"});
         description.program("bins", {"ldm/splat_bins.comp"});
         description.program("tiles", {"ldm/splat_tiles.comp"});
-        describe_prefix_sum(description);
+        describe_prefix_sum(description, "splat.places");
         description.constant("bin_stage");
         description.constant("chunk_count");
         description.parameters.add_choice("route", route_, {"blend", "tiles"},

@@ -113,9 +113,7 @@ class SessionOptions(Chart):
         return self.root / "assets/graphs" / (name + ".json")
 
     def test_passes_are_switched_as_render_switches_them(self):
-        graph = json.loads(self.graph("direct").read_text())
-        next(entry for entry in graph["passes"] if entry.get("id") == "emission")["enabled"] = False
-        self.graph("dark").write_text(json.dumps(graph))
+        self.graph("dark").write_text('{"version": 1, "extends": "direct", "passes": [{"id": "emission", "enabled": false}]}')
         self.sweep.write_text(json.dumps({"lists": {"shadow_maps.resolution": [32]}}))
         common = ["--graphs", "dark"]
         self.assert_good(self.run_program(*self.arguments("off", *common)))
@@ -152,8 +150,8 @@ class Contents(Chart):
         self.edit("glsl/surface/direct.comp", "void main() {", "void main() { // another text")
         self.assertIn("measured again; changed since: the shaders of 'direct'", self.chart())
         self.assertIn("there already", self.chart())
-        self.edit("assets/graphs/direct.json", '"rgba16f", "clear": false', '"rgba32f", "clear": false')
-        self.assertIn("measured again; changed since: the graph", self.chart())
+        self.edit("assets/graphs/base/surface.json", '"out.direct": { "clear": false }', '"out.direct": { "format": "rgba32f", "clear": false }')
+        self.assertIn("measured again; changed since: the graph", self.chart(), "a graph is all that it extends")
         self.shot.write_text(self.shot.read_text().replace("-8]", "-7.9]"))
         self.assertIn("measured again; changed since: the shot", self.chart())
         self.assertEqual(len(self.point_files("c")), 4, "earlier points stay, in case the change is taken back")
@@ -164,6 +162,8 @@ class Contents(Chart):
         self.chart()
         graph = self.root / "assets/graphs/direct.json"
         graph.write_text(json.dumps(dict(json.loads(graph.read_text()), about="Said otherwise."), indent=4))
+        self.assertIn("there already", self.chart())
+        graph.write_text(self.run_program("graph", "direct", "--expanded").stdout)  # in one file rather than in two
         self.edit("glsl/lrsm/gather.comp", "void main() {", "void main() { // of another graph")
         self.assertIn("there already", self.chart())
 

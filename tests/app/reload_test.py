@@ -109,6 +109,8 @@ class Watching(ProgramTest):
         self.assert_refused(result, "tonemap.comp")
 
     def test_a_graph_file_edited_and_a_compute_pass_dropped_in(self):
+        graph = self.root / "assets/graphs/direct.json"
+        graph.write_text(self.run_program("graph", "direct", "--expanded").stdout)
         self.start()
         self.centre_when(lambda p: True)
         (self.root / "glsl/user").mkdir(exist_ok=True)
@@ -116,7 +118,6 @@ class Watching(ProgramTest):
             "layout(local_size_x = 8, local_size_y = 8) in;\nlayout(FORMAT_out_display) writeonly uniform image2D out_display;\n"
             "uniform vec3 tint = vec3(0, 1, 0); //! the colour\n"
             "void main() { imageStore(out_display, ivec2(gl_GlobalInvocationID.xy), vec4(tint, 1.0)); }\n")
-        graph = self.root / "assets/graphs/direct.json"
         good = graph.read_text()
         tail = good.rindex("]")
         entry = ',\n    { "id": "tint", "type": "compute", "shader": "user/tint.comp" }\n  '

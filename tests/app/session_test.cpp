@@ -142,8 +142,8 @@ TEST_F(SessionTest, AfterAResetOfTheGpuEverythingIsMadeAgain) {
 
 /// Values and switches that differ from the graph's file only in who set them, too.
 TEST_F(SessionTest, AfterAResetOfTheGpuNothingThatAPersonSetIsLost) {
-    root.edit("assets/graphs/direct.json", "\"type\": \"gbuffer\"",
-              "\"type\": \"gbuffer\", \"params\": { \"cull_back_faces\": true }");
+    root.write("assets/graphs/direct.json", R"({"version":1,"extends":"base/surface",
+        "passes":[{"id":"gbuffer","params":{"cull_back_faces":true}}]})");
     Session session(options());
     session.set_parameter("gbuffer.cull_back_faces", "false", ParameterOrigin::panel); // its default, not the graph's
     session.set_parameter("graph.rebuild", "on_change", ParameterOrigin::panel);

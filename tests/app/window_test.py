@@ -242,7 +242,8 @@ class Window(ProgramTest):
         self.click("capture.save_preset")
         self.wait(lambda state: state["notice"].startswith("saved"), "the preset")
         preset = json.loads((self.root / "assets/graphs/bright.json").read_text())
-        params = {entry.get("id", entry["type"]): entry.get("params", {}) for entry in preset["passes"]}
+        params = {entry["id"]: entry.get("params", {}) for entry in preset["passes"]}
+        self.assertEqual(preset["extends"], "direct")
         self.assertAlmostEqual(params["tonemap"]["exposure"], value, 5)
         self.click("capture.save_preset")
         self.wait(lambda state: state["notice_is_error"] and "overwrite" in state["notice"], "the refusal to overwrite")

@@ -8,14 +8,14 @@ using namespace bounce;
 using testing::HasSubstr;
 
 static std::string set(const std::string& text, const std::vector<std::string>& path, const std::string& value) {
-    JsonText json(text);
+    JsonEdit json(text);
     json.set(path, value);
     return json.text();
 }
 
 static std::string insert(const std::string& text, const std::vector<std::string>& path, size_t before,
                           const std::string& value) {
-    JsonText json(text);
+    JsonEdit json(text);
     json.insert(path, before, value);
     return json.text();
 }

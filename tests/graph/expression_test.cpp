@@ -12,6 +12,8 @@ std::optional<double> names(const std::string& name) {
     if (name == "width") return 641;
     if (name == "graph.scale") return 0.5;
     if (name == "gbuffer.normal.width") return 320;
+    if (name == "direct.visibility") return 1;
+    if (name == "other.visibility") return 0;
     return std::nullopt;
 }
 } // namespace
@@ -24,6 +26,34 @@ TEST(Expression, NumbersNamesAndFunctions) {
     EXPECT_DOUBLE_EQ(evaluate("floor(log2(width)) + 1", names), 10);
     EXPECT_DOUBLE_EQ(evaluate("width > 600 ? 2 : 1", names), 2);
     EXPECT_DOUBLE_EQ(evaluate("2 ^ 3", names), 8);
+}
+
+TEST(Expression, Logic) {
+    EXPECT_EQ(evaluate("width && graph.scale", names), 1);
+    EXPECT_EQ(evaluate("width && 0 || 0", names), 0);
+    EXPECT_EQ(evaluate("!(width > 600) || !0", names), 1);
+    EXPECT_EQ(evaluate("!width != 1", names), 1);
+    EXPECT_EQ(evaluate("true && !false", names), 1);
+}
+
+TEST(Expression, EnumerationsAreComparedByName) {
+    static const std::vector<std::string> choices = {"shadow_map", "cones", "width"};
+    Names with(names);
+    with.choices = [](const std::string& name) { return name.ends_with(".visibility") ? &choices : nullptr; };
+    with.known = [] { return std::vector<std::string>{"width", "graph.scale"}; };
+    EXPECT_EQ(evaluate("direct.visibility == cones", with), 1);
+    EXPECT_EQ(evaluate("shadow_map != direct.visibility && width", with), 1);
+    EXPECT_EQ(evaluate("direct.visibility==shadow_map||other.visibility==shadow_map", with), 1);
+    EXPECT_EQ(evaluate("direct.visibility == width", with), 0) << "a choice goes before a name";
+    EXPECT_EQ(evaluate("direct.visibility == other.visibility", with), 0);
+    EXPECT_EQ(evaluate("direct.visibility == 1", with), 1);
+    EXPECT_THAT(
+        error_of([&] { evaluate("direct.visibility == cone", with); }),
+        HasSubstr(
+            "invalid choice 'cone' of 'direct.visibility' in 'direct.visibility == cone' (did you mean 'cones'?)"));
+    EXPECT_THAT(error_of([&] { evaluate("widht * 2", with); }), HasSubstr("(did you mean 'width'?)"));
+    EXPECT_THAT(error_of([&] { evaluate("width == cones", with); }),
+                HasSubstr("'cones' in 'width == cones' is no name"));
 }
 
 TEST(Expression, WholeNumbersAreRoundedDown) {

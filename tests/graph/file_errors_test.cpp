@@ -7,11 +7,12 @@ using namespace bounce;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 class GraphFileErrors : public PlanTest {
   protected:
     std::string errors(const std::string& members) const {
-        return error_of([&] { load_graph_file(graph_file(members)); });
+        return error_of([&] { read_graph_file(graph_file(members)); });
     }
 };
 
@@ -50,7 +51,7 @@ TEST_F(GraphFileErrors, NamesThatAreVeryLong) {
 TEST_F(GraphFileErrors, FormsOfPrevious) {
     shader("x.comp", "");
     auto bound = [&](const std::string& source) {
-        GraphFile file = load_graph_file(
+        GraphFile file = read_graph_file(
             graph_file("\"passes\": [{\"id\":\"a\",\"type\":\"compute\",\"shader\":\"x.comp\",\"bind\":{\"a.b\":\"" +
                        source + "\"}}]"));
         const BindEntry& bind = file.nodes.at(0).bind.at("a.b");
@@ -65,13 +66,13 @@ TEST_F(GraphFileErrors, FormsOfPrevious) {
 
 TEST_F(GraphFileErrors, BrokenJsonNamesItsLine) {
     root.write("assets/graphs/g.json", "{\n  \"version\": 1,\n  \"passes\": [,]\n}\n");
-    EXPECT_THAT(error_of([&] { load_graph_file(root / "assets/graphs/g.json"); }),
+    EXPECT_THAT(error_of([&] { read_graph_file(root / "assets/graphs/g.json"); }),
                 HasSubstr("g.json:3: not valid JSON"));
 }
 
 TEST_F(GraphFileErrors, NoVersionNoPassesTwiceTheSameId) {
     root.write("assets/graphs/g.json", "{}");
-    EXPECT_THAT(error_of([&] { load_graph_file(root / "assets/graphs/g.json"); }),
+    EXPECT_THAT(error_of([&] { read_graph_file(root / "assets/graphs/g.json"); }),
                 AllOf(HasSubstr("'version' must be 1"), HasSubstr("'passes' must be a list")));
     shader("x.comp", "");
     EXPECT_THAT(
@@ -85,7 +86,7 @@ TEST_F(GraphFileErrors, TheTransportNamesParametersThatAreThere) {
     shader("x.comp", "uniform float d_max = 0.1; //! [0, 2] how far");
     auto model = [&](const std::string& name) {
         return GraphModel(
-            load_graph_file(graph_file("\"transport\": {\"occlusion_distance\": \"" + name +
+            read_graph_file(graph_file("\"transport\": {\"occlusion_distance\": \"" + name +
                                        R"("}, "passes": [{"id":"a","type":"compute","shader":"x.comp"}])")));
     };
     EXPECT_EQ(model("a.d_max").file().transport.occlusion_distance, "a.d_max");
@@ -96,7 +97,7 @@ TEST_F(GraphFileErrors, TheTransportNamesParametersThatAreThere) {
 TEST_F(GraphFileErrors, ParametersAreSharedWithAnEarlierPassOnly) {
     shader("x.comp", "uniform float width = 1.0; //! [0, 2] how wide");
     auto model = [&](const std::string& passes) {
-        return GraphModel(load_graph_file(graph_file("\"passes\": [" + passes + "]")));
+        return GraphModel(read_graph_file(graph_file("\"passes\": [" + passes + "]")));
     };
     const std::string a = R"({"id":"a","type":"compute","shader":"x.comp"})",
                       b = R"({"id":"b","type":"compute","shader":"x.comp","params_of":"a"})";
@@ -124,30 +125,50 @@ TEST_F(GraphFileErrors, ParametersOfAllPassesAreCheckedTogether) {
     EXPECT_THAT(text, HasSubstr("pass 'y': '3' is out of range for parameter 'width': it takes a number [0, 2]"));
 }
 
-/// Of the text, of parameters and of the plan: a person mends them in one go. What only follows from another error is
-/// not told.
-TEST_F(GraphFileErrors, ThoseOfAllKindsAreReportedTogether) {
+/// The file, the parameters, declarations, sources, expressions, the order, and what a frame would run into: each phase
+/// reports all that it finds, and the next one runs only when there is nothing, so that no error follows from another.
+TEST_F(GraphFileErrors, EachPhaseReportsAllOfItsOwn) {
     shader("fill.comp", "uniform float gain = 1.0; //! [0, 2] gain\nlayout(FORMAT_a_a) writeonly uniform image2D a_a;");
     shader("reads.comp", "uniform sampler2D a_a;\nlayout(FORMAT_b_b) writeonly uniform image2D b_b;");
     shader("one.comp", "uniform sampler2D d_d;\nlayout(FORMAT_c_c) writeonly uniform image2D c_c;");
     shader("two.comp", "uniform sampler2D c_c;\nlayout(FORMAT_d_d) writeonly uniform image2D d_d;");
-    std::string text = error_of([&] {
-        model(R"("resources": {"a.a": {}, "b.b": {"size": ["wdth", 1]}, "c.c": {}, "d.d": {"size": ["b.b.width", 1]},
+    std::string members =
+        R"("resources": {"a.a": {}, "b.b": {"size": ["wdth", 1]}, "c.c": {}, "d.d": {"size": ["b.b.width", 1]},
                                "e.e": {"format": "rgba16g"}},
                  "passes": [{"id":"fill","type":"compute","shader":"fill.comp","params":{"gian": 1}},
                             {"id":"reads","type":"compute","shader":"reads.comp","bind":{"a.b":"a.a"}},
                             {"id":"again","type":"compute","shader":"fill.comp","dispatch":["widht", 1]},
-                            {"id":"late","type":"compute","shader":"reads.comp","bind":{"a.a":"e.e"}},
+                            {"id":"late","type":"compute","shader":"reads.comp","bind":{"a.a":"e.f"},"needs":"lihgts"},
                             {"id":"one","type":"compute","shader":"one.comp"},
-                            {"id":"two","type":"compute","shader":"two.comp"}])");
-    });
-    EXPECT_THAT(text, HasSubstr(": 6 errors\n"));
-    EXPECT_THAT(text, HasSubstr("there is no format 'rgba16g'"));
-    EXPECT_THAT(text, HasSubstr("pass 'fill': there is no parameter 'gian' (did you mean 'gain'?)"));
-    EXPECT_THAT(text, HasSubstr("pass 'reads' has no slot 'a.b' (did you mean 'a.a'?)"));
-    EXPECT_THAT(text, HasSubstr("resource 'b.b' (declared by graph file): 'wdth' in 'wdth' is no name"));
-    EXPECT_THAT(text, HasSubstr("pass 'again': 'dispatch': 'widht' in 'widht' is no name that is known here"));
-    EXPECT_THAT(text, HasSubstr("these passes wait for each other in a circle: one, two"));
+                            {"id":"two","type":"compute","shader":"two.comp"}])";
+    auto found = [&] { return error_of([&] { plan(members); }); };
+    auto mend = [&](const std::string& wrong, const std::string& right) {
+        members.replace(members.find(wrong), wrong.size(), right);
+    };
+    EXPECT_THAT(found(), AllOf(HasSubstr("there is no format 'rgba16g'"), Not(HasSubstr("errors\n"))));
+    mend("rgba16g", "rgba16f");
+    EXPECT_THAT(found(), AllOf(HasSubstr("pass 'fill': there is no parameter 'gian' (did you mean 'gain'?)"),
+                               Not(HasSubstr("errors\n"))));
+    mend("gian", "gain");
+    EXPECT_THAT(found(),
+                AllOf(HasSubstr(": 2 errors\n"), HasSubstr("pass 'reads' has no slot 'a.b' (did you mean 'a.a'?)"),
+                      HasSubstr("reads 'e.f' (slot a.a), which nothing declares (did you mean 'e.e'?)")));
+    mend("a.b", "a.a");
+    mend("e.f", "a.a");
+    EXPECT_THAT(found(),
+                AllOf(HasSubstr(": 2 errors\n"), HasSubstr("pass 'late': 'needs': 'lihgts' in 'lihgts' is no name"),
+                      HasSubstr("(did you mean 'lights'?)"),
+                      HasSubstr("resource 'b.b' (declared by graph file): 'wdth' in 'wdth' is no name that is "
+                                "known here (did you mean 'width'?)")));
+    mend("lihgts", "1 - lights");
+    mend("wdth", "width");
+    EXPECT_THAT(found(),
+                AllOf(HasSubstr("these passes wait for each other in a circle: one, two"), Not(HasSubstr("errors\n"))));
+    mend(R"("id":"two")", R"("id":"two","enabled":false)");
+    EXPECT_THAT(found(), AllOf(HasSubstr("pass 'again': 'dispatch': 'widht' in 'widht' is no name that is known here"),
+                               Not(HasSubstr("errors\n"))));
+    mend("widht", "width");
+    EXPECT_THAT(found(), IsEmpty());
 }
 
 /// A pass that cannot be read may have made what others read: that they lack it is not known.

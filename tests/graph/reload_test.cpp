@@ -254,6 +254,51 @@ TEST_F(Reload, AGraphFileEditedWhileRunning) {
     EXPECT_EQ(red(run), 4);
 }
 
+/// The files of a chain are watched, all of them, also those that a broken one names.
+TEST_F(Reload, ABaseEditedWhileAGraphThatExtendsItRuns) {
+    fill_shader("fill.comp", "a_image", "gain + more",
+                "uniform float gain = 1.0; //! [0, 9] gain\nuniform float more = 0.0; //! [0, 9] more");
+    auto base = [&](const std::string& gain) {
+        root.write("assets/graphs/base.json",
+                   R"({"version":1,"resources":{"a.image":{"format":"rgba32f","size":[4,4]}},"passes":)"
+                   R"([{"id":"fill","type":"compute","shader":"fill.comp","params":{"gain":)" +
+                       gain + "}}]}");
+    };
+    auto middle = [&](const std::string& of) {
+        root.write("assets/graphs/middle.json", R"({"version":1,"extends":")" + of + "\"}");
+    };
+    base("2");
+    middle("base");
+    GraphRunner run(graph_file(R"("extends":"middle","passes":[{"id":"fill","params":{"more":5}}])"));
+    run.frame();
+    EXPECT_EQ(red(run), 7);
+    base("3");
+    next(run);
+    EXPECT_EQ(run.problems(), "");
+    EXPECT_EQ(red(run), 8);
+    base("\"three\"");
+    next(run);
+    EXPECT_THAT(run.problems(), HasSubstr("gain"));
+    EXPECT_EQ(red(run), 8) << "the last good graph stays";
+    root.remove("assets/graphs/base.json");
+    next(run);
+    EXPECT_THAT(run.problems(), HasSubstr("there is no graph 'base' to extend"));
+    base("4");
+    next(run);
+    EXPECT_EQ(run.problems(), "");
+    EXPECT_EQ(red(run), 9) << "it came back";
+    root.write("assets/graphs/other.json", "{");
+    middle("other");
+    next(run);
+    EXPECT_THAT(run.problems(), HasSubstr("other.json:1: not valid JSON"));
+    EXPECT_EQ(red(run), 9);
+    root.write("assets/graphs/other.json",
+               R"({"version":1,"extends":"base","passes":[{"id":"fill","params":{"gain":1}}]})");
+    next(run);
+    EXPECT_EQ(run.problems(), "");
+    EXPECT_EQ(red(run), 6) << "a file that only the broken graph named was mended";
+}
+
 TEST_F(Reload, AProgramThatHungTheGpuStaysDisabledUntilItIsEdited) {
     fill_shader("fill.comp", "a_image", "2");
     GraphRunner run(graph_file(k_graph));
