@@ -50,11 +50,14 @@ BindEntry PassNode::target_of(const std::string& slot) const {
     return target;
 }
 
-static std::unique_ptr<Pass> make_pass(const std::string& type) {
+std::unique_ptr<Pass> make_pass(const NodeEntry& entry) {
     for (const PassType& known : pass_types()) {
-        if (known.name == type) return known.make();
+        if (known.name != entry.type) continue;
+        std::unique_ptr<Pass> pass = known.make();
+        if (auto* script = dynamic_cast<ScriptPass*>(pass.get())) script->configure(entry);
+        return pass;
     }
-    throw Error("there is no pass type '" + type + "'");
+    throw Error("there is no pass type '" + entry.type + "'");
 }
 
 GraphModel::GraphModel(GraphFile file) : file_(std::move(file)) {
@@ -73,8 +76,7 @@ GraphModel::GraphModel(GraphFile file) : file_(std::move(file)) {
         auto node = std::make_unique<PassNode>();
         node->entry = entry;
         node->enabled = entry.enabled;
-        node->pass = make_pass(entry.type);
-        if (auto* script = dynamic_cast<ScriptPass*>(node->pass.get())) script->configure(entry);
+        node->pass = make_pass(entry);
         node->description = std::make_unique<PassDescription>(node->parameters);
         node->pass->describe(*node->description);
         for (const ProgramEntry& program : node->description->programs) {

@@ -111,7 +111,6 @@ class GraphModel {
     void scan_by_values(PassNode& node);
     const Parameter* find_number(const std::string& name) const;
     void note_number(const std::string& name) const;
-    bool is_made(const std::string& resource) const;
     std::vector<std::string> off_among(std::vector<const PassNode*> open) const;
 
     GraphFile file_;

@@ -18,4 +18,7 @@ class ScriptPass : public Pass {
     NodeEntry entry_;
 };
 
+/// A pass of the entry's type, at its defaults. Throws Error for an unknown type.
+std::unique_ptr<Pass> make_pass(const NodeEntry& entry);
+
 } // namespace bounce

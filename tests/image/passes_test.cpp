@@ -71,6 +71,37 @@ TEST(Registry, HoldsEveryPassThatTheSourcesRegister) {
         EXPECT_FALSE(type.about.empty()) << type.name;
 }
 
+/// What a pass that is off makes, by its shaders or by targets that it draws to, is made when somebody asks for it.
+TEST(SwitchedOff, WhatAPassWouldMakeIsMadeWhenItIsAskedFor) {
+    SceneFacts facts;
+    facts.triangles = facts.vertices = 1000;
+    facts.materials = facts.instances = facts.glossy_materials = facts.emissive_materials = 1;
+    facts.point_lights = facts.spot_lights = facts.directional_lights = 1;
+    facts.environment = true;
+    facts.bounds = facts.bounds_over_animation = {glm::vec3(-1), glm::vec3(1)};
+    std::set<std::string> asked;
+    for (const std::string& graph : graph_names()) {
+        const auto file = real_root() / "assets/graphs" / (graph + ".json");
+        const Plan usual = GraphModel(read_graph_file(file)).plan(facts, {64, 36});
+        GraphModel all(read_graph_file(file));
+        for (const auto& node : all.nodes())
+            all.switch_pass(node->id(), true);
+        for (const std::string& resource : all.plan(facts, {64, 36}).resource_names()) {
+            GraphModel model(read_graph_file(file));
+            const std::vector<std::string> ids = model.off_for(resource);
+            if (usual.find_resource(resource)) {
+                EXPECT_THAT(ids, testing::IsEmpty()) << graph << ": " << resource;
+                continue;
+            }
+            for (const std::string& id : ids)
+                model.switch_pass(id, true);
+            EXPECT_TRUE(model.plan(facts, {64, 36}).find_resource(resource)) << graph << ": " << resource;
+            asked.insert(resource);
+        }
+    }
+    EXPECT_THAT(asked, testing::IsSupersetOf({"debug.footprints", "debug.voxels", "debug.cloud", "debug.rays"}));
+}
+
 TEST_F(Passes, EachRunsInSomeGraphWithoutErrorsAndWithFiniteResults) {
     std::string shot = tiny_shot();
     std::set<std::string> ran;
