@@ -44,7 +44,6 @@ std::vector<LimitRow> limit_rows() {
         {"frames of a run", grouped(k_max_frames), "refused before rendering"},
         {"combinations of a sweep", grouped(k_max_sweep_points), "refused before they are made"},
         {"a shot, graph, sweep, table or point", bytes_text(k_max_json_text), refused},
-        {"a shader or include", bytes_text(k_max_shader_bytes), "an error of that shader"},
         {"an image file", bytes_text(k_max_image_bytes), refused},
         {"a .gltf or .glb", bytes_text(k_max_scene_bytes), refused},
         {"a buffer of a scene", bytes_text(k_max_buffer_bytes), refused},
