@@ -5,6 +5,7 @@
 #include "core/problem.h"
 #include "core/text.h"
 #include "gpu/capabilities.h"
+#include "graph/plan_memory.h"
 
 #include <algorithm>
 #include <cstring>
@@ -101,6 +102,7 @@ void Graph::set_default_rebuild(Rebuild rebuild) {
 void Graph::plan_again(const SceneFacts& facts, glm::ivec2 size) {
     ++plans_;
     Plan next = model_->plan(facts, size);
+    check_plan_fits(*model_, facts, next, planned_ ? plan_.total_bytes() : 0);
     allocations_.update(next);
     neutrals_.clear(); // they are as large as what they stand for
     plan_ = std::move(next);
@@ -217,6 +219,7 @@ bool Graph::poll_files() {
             next->adopt_programs(*model_);
             try {
                 Plan plan = next->plan(planned_facts_, plan_.size);
+                check_plan_fits(*next, planned_facts_, plan, plan_.total_bytes());
                 allocations_.update(plan);
                 plan_ = std::move(plan);
                 invalidation_.new_plan(*next, plan_);
