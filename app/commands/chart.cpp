@@ -4,6 +4,7 @@
 #include "app/commands/session_options.h"
 #include "app/experiments/sweep.h"
 #include "app/hosts/headless.h"
+#include "app/print.h"
 #include "core/error.h"
 #include "core/scanner.h"
 #include "core/text.h"
@@ -38,7 +39,7 @@ std::pair<int, int> parse_shard(const std::string& text) {
 }
 
 void print_line(const std::string& line) {
-    fmt::print("{}\n", line);
+    print("{}\n", line);
     std::fflush(stdout);
 }
 
@@ -49,7 +50,7 @@ int run(const ChartArguments& a) {
     if (!a.merge.empty()) {
         std::vector<std::filesystem::path> folders(a.merge.begin(), a.merge.end());
         merge_charts(folders, a.output, view, print_line);
-        fmt::print("{}/chart.html\n", a.output);
+        print("{}/chart.html\n", a.output);
         return 0;
     }
     if (a.shots.empty()) throw Error("chart: name at least one shot");
@@ -89,7 +90,7 @@ int run(const ChartArguments& a) {
     }
     HeadlessContext context(a.session.device);
     run_chart(plan, print_line);
-    fmt::print("{}/chart.html\n", a.output);
+    print("{}/chart.html\n", a.output);
     return 0;
 }
 

@@ -2,6 +2,7 @@
 #include "app/capture.h"
 #include "app/commands/command.h"
 #include "app/experiments/comparison_text.h"
+#include "app/print.h"
 #include "core/error.h"
 #include "core/heat_map.h"
 
@@ -70,9 +71,9 @@ int compare(const CompareArguments& arguments) {
     }
     // The figures first: a false-colour picture that cannot be written does not cost them.
     if (arguments.json)
-        fmt::print("{}\n", comparison_json(report));
+        print("{}\n", comparison_json(report));
     else
-        fmt::print("{}", comparison_text(report));
+        print("{}", comparison_text(report));
     if (!arguments.heatmap.empty()) {
         // The picture as a whole where there is one, unless a part was asked for.
         std::string part = comparison.parts.front().part;

@@ -3,6 +3,7 @@
 
 #include "app/commands/command.h"
 #include "app/listing.h"
+#include "app/print.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -178,7 +179,7 @@ void add_completion_command(CLI::App& app, CommandFunction& chosen) {
     command->add_option("shell", *shell, "bash or zsh")->required()->type_name("SHELL");
     command->callback([shell, &app, &chosen] {
         chosen = [shell, &app] {
-            fmt::print("{}", completion_script(app, *shell));
+            print("{}", completion_script(app, *shell));
             return 0;
         };
     });

@@ -5,6 +5,7 @@
 #include "app/experiments/report.h"
 #include "app/experiments/transport.h"
 #include "app/hosts/headless.h"
+#include "app/print.h"
 #include "app/progress.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -73,9 +74,9 @@ int render_default() {
         throw Error("nothing was written: " + problem.error.text());
     write_picture(session, output);
     session.graph().finish_timings();
-    fmt::print("{}: {} through {}, {:.3g} ms per frame, {}; against a path tracer, {} samples per pixel: {}\n", output,
-               options.shot, options.graph, session.graph().frame_ms(),
-               format_bytes(double(session.graph().plan().total_bytes())), k_reference_samples, errors_of(session));
+    print("{}: {} through {}, {:.3g} ms per frame, {}; against a path tracer, {} samples per pixel: {}\n", output,
+          options.shot, options.graph, session.graph().frame_ms(),
+          format_bytes(double(session.graph().plan().total_bytes())), k_reference_samples, errors_of(session));
     return 0;
 }
 

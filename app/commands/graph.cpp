@@ -1,6 +1,7 @@
 // bounce graph: prints a graph's plan.
 #include "app/commands/command.h"
 #include "app/commands/session_options.h"
+#include "app/print.h"
 #include "core/error.h"
 #include "graph/model.h"
 
@@ -27,7 +28,7 @@ int print_graph(const GraphArguments& arguments) {
         model.set(name, text, ParameterOrigin::command_line);
     Shot shot = load_shot(arguments.shot);
     Plan plan = model.plan(shot_facts(shot), options.size.value_or(glm::ivec2(shot.width, shot.height)));
-    fmt::print("{}", arguments.graphviz ? plan_graphviz(model, plan) : plan_text(model, plan));
+    print("{}", arguments.graphviz ? plan_graphviz(model, plan) : plan_text(model, plan));
     return 0;
 }
 } // namespace

@@ -1,6 +1,7 @@
 // bounce list: the names that other commands take.
 #include "app/commands/command.h"
 #include "app/listing.h"
+#include "app/print.h"
 
 #include <fmt/format.h>
 
@@ -16,7 +17,7 @@ void add_list_command(CLI::App& app, CommandFunction& chosen) {
     command->callback([wanted, &chosen] {
         chosen = [wanted] {
             for (const std::string& name : names_of(*wanted))
-                fmt::print("{}\n", name);
+                print("{}\n", name);
             return 0;
         };
     });

@@ -1,6 +1,7 @@
 // bounce new pass: writes a working pass to start from.
 #include "app/commands/command.h"
 #include "app/new_pass.h"
+#include "app/print.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +20,7 @@ void add_new_command(CLI::App& app, CommandFunction& chosen) {
     pass->add_flag("--cpp", request->cpp, "also write a C++ pass class");
     pass->callback([request, &chosen] {
         chosen = [request] {
-            fmt::print("{}", write_new_pass(*request));
+            print("{}", write_new_pass(*request));
             return 0;
         };
     });

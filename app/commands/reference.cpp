@@ -2,6 +2,7 @@
 #include "app/capture.h"
 #include "app/commands/command.h"
 #include "app/experiments/transport.h"
+#include "app/print.h"
 #include "app/progress.h"
 #include "core/error.h"
 #include "core/exr_file.h"
@@ -187,24 +188,24 @@ int reference(ReferenceArguments arguments) {
         result = reference_image(shot, arguments.settings, arguments.frame, goal, on_progress, !arguments.no_cache);
     }
     if (!result.kept_problem.empty()) {
-        fmt::print(stderr, "warning: the samples could not be kept for a later run: {}\n", result.kept_problem);
+        print_error("warning: the samples could not be kept for a later run: {}\n", result.kept_problem);
     }
     if (result.complete || result.samples >= 1) write_or_save(arguments, result);
     if (!arguments.quiet || !result.complete) {
-        fmt::print("{}: {} samples a pixel, noise {:.2f} % of {}{}\n", arguments.output, result.samples,
-                   100 * result.noise, goal.part,
-                   result.cached             ? " (from the cache)"
-                   : result.resumed_from > 0 ? fmt::format(" (resumed from {} samples)", result.resumed_from)
-                                             : "");
+        print("{}: {} samples a pixel, noise {:.2f} % of {}{}\n", arguments.output, result.samples, 100 * result.noise,
+              goal.part,
+              result.cached             ? " (from the cache)"
+              : result.resumed_from > 0 ? fmt::format(" (resumed from {} samples)", result.resumed_from)
+                                        : "");
     }
     if (!result.complete) {
-        fmt::print(stderr, "stopped before the goal; {}\n",
-                   arguments.no_cache || !result.kept_problem.empty() ? "nothing was kept for a later run"
-                                                                      : "the same command goes on from here");
+        print_error("stopped before the goal; {}\n", arguments.no_cache || !result.kept_problem.empty()
+                                                         ? "nothing was kept for a later run"
+                                                         : "the same command goes on from here");
         return interrupted ? 130 : 1;
     }
     if (goal.noise > 0 && result.noise > goal.noise) {
-        fmt::print(stderr, "warning: the noise is still above {} after {} samples\n", goal.noise, result.samples);
+        print_error("warning: the noise is still above {} after {} samples\n", goal.noise, result.samples);
     }
     return 0;
 }

@@ -3,6 +3,7 @@
 #include "app/commands/command.h"
 #include "app/commands/session_options.h"
 #include "app/hosts/headless.h"
+#include "app/print.h"
 #include "app/progress.h"
 #include "app/timings.h"
 #include "core/error.h"
@@ -74,10 +75,10 @@ int render(const RenderArguments& arguments) {
     session.graph().finish_timings();
     if (!arguments.timings.empty()) write_timings(session, arguments.timings);
     if (arguments.quiet) return 0;
-    fmt::print("{}", timing_table(session));
-    fmt::print("{}\n", every_frame ? fmt::format("{} … {}", numbered(arguments.output, 0),
-                                                 numbered(arguments.output, arguments.frames - 1))
-                                   : arguments.output);
+    print("{}", timing_table(session));
+    print("{}\n", every_frame ? fmt::format("{} … {}", numbered(arguments.output, 0),
+                                            numbered(arguments.output, arguments.frames - 1))
+                              : arguments.output);
     return 0;
 }
 

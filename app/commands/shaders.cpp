@@ -1,5 +1,6 @@
 // bounce shaders: expands every program of every graph to standalone files (for other compilers to judge).
 #include "app/commands/command.h"
+#include "app/print.h"
 #include "core/error.h"
 #include "core/image.h"
 #include "core/paths.h"
@@ -64,7 +65,7 @@ int expand_all(const std::string& folder) {
         write_file_atomically(fs::path(folder) / ("alone." + name), program.sources().front().text);
         ++count;
     }
-    fmt::print("{} shaders in {}\n", count, folder);
+    print("{} shaders in {}\n", count, folder);
     return 0;
 }
 } // namespace

@@ -5,6 +5,7 @@
 #include "app/commands/session_options.h"
 #include "app/hosts/headless.h"
 #include "app/origin.h"
+#include "app/print.h"
 #include "core/error.h"
 
 #include <fmt/format.h>
@@ -37,10 +38,10 @@ int print_stability(const StabilityArguments& arguments) {
     Session session(arguments.session.options());
     if (arguments.fps > 0) session.shot().fps = arguments.fps;
     StabilityFigures figures = measure_stability(session, arguments.resource, arguments.frames);
-    fmt::print("{} of {} through {}, {} frames: mean {:.5g}, change {:.3f} %, flicker {:.3f} %, 99th percentile {:.3f} "
-               "%\n",
-               arguments.resource, session.shot().name, session.graph().model().file().name, figures.frames,
-               figures.mean, 100 * figures.change, 100 * figures.flicker, 100 * figures.flicker_p99);
+    print("{} of {} through {}, {} frames: mean {:.5g}, change {:.3f} %, flicker {:.3f} %, 99th percentile {:.3f} "
+          "%\n",
+          arguments.resource, session.shot().name, session.graph().model().file().name, figures.frames, figures.mean,
+          100 * figures.change, 100 * figures.flicker, 100 * figures.flicker_p99);
     if (!arguments.output.empty())
         write_file_atomically(arguments.output, stability_markdown(arguments, session, figures));
     return 0;

@@ -7,6 +7,7 @@
 #include "app/experiments/table_file.h"
 #include "app/hosts/headless.h"
 #include "app/origin.h"
+#include "app/print.h"
 #include "core/error.h"
 #include "core/image.h"
 
@@ -27,8 +28,8 @@ std::string measured_errors(const TableArguments& arguments, const std::filesyst
     HeadlessContext context(arguments.device);
     std::vector<ErrorTableMeasured> measured;
     for (const ErrorTableRow& row : file.rows) {
-        fmt::print(stderr, "{}, {} …\n", row.graph, row.name);
-        measured.push_back(measure_row(row, [](const std::string& line) { fmt::print(stderr, "  {}\n", line); }));
+        print_error("{}, {} …\n", row.graph, row.name);
+        measured.push_back(measure_row(row, [](const std::string& line) { print_error("  {}\n", line); }));
     }
     const std::string about = file.about.empty() ? "" : file.about + "\n\n";
     return origin_head({origin_here()}) + "\n" + about + error_table_markdown(file, measured);
@@ -42,7 +43,7 @@ std::string measured_costs(const TableArguments& arguments) {
     HeadlessContext context(arguments.device);
     std::vector<CostTableMeasured> measured;
     for (const CostTableColumn& column : file.columns) {
-        fmt::print(stderr, "{} …\n", column.name);
+        print_error("{} …\n", column.name);
         measured.push_back(measure_column(file, column, size, arguments.warm_up, arguments.frames));
     }
     return origin_head({origin_here()}) + "\n" + cost_table_markdown(file, measured);
@@ -53,7 +54,7 @@ int print_table(const TableArguments& arguments) {
     const std::filesystem::path path = find_table(arguments.table);
     const std::string text = is_error_table(path) ? measured_errors(arguments, path) : measured_costs(arguments);
     if (arguments.output.empty())
-        fmt::print("{}", text);
+        print("{}", text);
     else
         write_file_atomically(arguments.output, text);
     return 0;
