@@ -1,5 +1,6 @@
 // bounce without arguments: a shot with global illumination, in a window where there is a display. Else to a picture,
 // with what it costs and how far it is from the truth.
+#include "app/broken_shaders.h"
 #include "app/capture.h"
 #include "app/commands/command.h"
 #include "app/experiments/report.h"
@@ -70,8 +71,7 @@ int render_default() {
         session.render(true);
         bar.update(double(frame + 1) / k_frames);
     }
-    for (const GraphProblem& problem : session.graph().problems())
-        throw Error("nothing was written: " + problem.error.text());
+    throw_if_broken(session, "nothing was written");
     write_picture(session, output);
     session.graph().finish_timings();
     print("{}: {} through {}, {:.3g} ms per frame, {}; against a path tracer, {} samples per pixel: {}\n", output,

@@ -1,4 +1,5 @@
 // bounce render: a shot through a graph, to a file.
+#include "app/broken_shaders.h"
 #include "app/capture.h"
 #include "app/commands/command.h"
 #include "app/commands/session_options.h"
@@ -8,6 +9,7 @@
 #include "app/timings.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "graph/shader_log.h"
 
 #include <cstdio>
 #include <fmt/format.h>
@@ -42,10 +44,7 @@ std::string numbered(const std::string& pattern, int number) {
 
 /// Throws when a shader does not compile: headless runs write nothing then.
 void refuse_broken(const Session& session) {
-    ErrorList errors;
-    for (const GraphProblem& problem : session.graph().problems())
-        errors.add(problem.error.text());
-    errors.throw_if_any("nothing was written");
+    throw_if_broken(session, "nothing was written");
 }
 
 int render(const RenderArguments& arguments) {
@@ -56,6 +55,7 @@ int render(const RenderArguments& arguments) {
     if (!arguments.timings.empty()) check_output_folder(arguments.timings);
     SessionOptions options = arguments.options();
     options.resource = arguments.resource;
+    set_shader_errors_logged(arguments.watch);
     HeadlessContext context(arguments.device);
     spdlog::debug("{}", describe(context.capabilities()));
     Session session(options);

@@ -7,6 +7,7 @@
 #include "app/origin.h"
 #include "app/print.h"
 #include "core/error.h"
+#include "graph/shader_log.h"
 
 #include <fmt/format.h>
 
@@ -34,6 +35,7 @@ std::string stability_markdown(const StabilityArguments& arguments, const Sessio
 
 int print_stability(const StabilityArguments& arguments) {
     if (!arguments.output.empty()) check_output_folder(arguments.output);
+    set_shader_errors_logged(false);
     HeadlessContext context(arguments.session.device);
     Session session(arguments.session.options());
     if (arguments.fps > 0) session.shot().fps = arguments.fps;

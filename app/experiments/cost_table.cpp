@@ -1,11 +1,13 @@
 #include "app/experiments/cost_table.h"
 
+#include "app/broken_shaders.h"
 #include "app/experiments/chart_point.h"
 #include "app/experiments/table_file.h"
 #include "app/session.h"
 #include "app/timings.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "graph/shader_log.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,15 +116,16 @@ CostTableMeasured measure_column(const CostTableFile& file, const CostTableColum
     options.graph = column.graph;
     options.sets = column.sets;
     options.size = size;
+    set_shader_errors_logged(false);
     Session session(options);
+    throw_if_broken(session, "nothing was measured");
     for (int frame = 0; frame < warm_up + frames; ++frame) {
         if (frame > 0) session.advance();
         if (frame == warm_up) session.graph().forget_timings();
         session.render(true);
     }
     session.graph().finish_timings();
-    for (const GraphProblem& problem : session.graph().problems())
-        throw Error(problem.error.text());
+    throw_if_broken(session, "nothing was measured");
 
     CostTableMeasured measured;
     const Plan& plan = session.graph().plan();

@@ -1,10 +1,12 @@
 #include "app/experiments/error_table.h"
 
+#include "app/broken_shaders.h"
 #include "app/capture.h"
 #include "app/experiments/table_file.h"
 #include "app/experiments/transport.h"
 #include "core/comparison.h"
 #include "core/error.h"
+#include "graph/shader_log.h"
 #include "reference/reference_image.h"
 #include "scene/shot.h"
 
@@ -132,14 +134,15 @@ ErrorTableMeasured measure_row(const ErrorTableRow& row, const std::function<voi
     options.switches = row.switches;
     options.resource = row.resource.find('+') == std::string::npos ? row.resource : "";
     options.size = row.size * row.multiple;
+    set_shader_errors_logged(false);
     Session session(options);
+    throw_if_broken(session, row.name);
     for (int frame = 0; frame < row.frames; ++frame) {
         if (frame > 0) session.advance();
         session.render(true);
     }
     session.graph().finish_timings();
-    for (const GraphProblem& problem : session.graph().problems())
-        throw Error(row.name + ": " + problem.error.text());
+    throw_if_broken(session, row.name);
     measured.frame_ms = session.graph().frame_ms();
     measured.bytes = session.graph().plan().total_bytes();
 

@@ -6,6 +6,7 @@
 #include "core/text.h"
 #include "gpu/capabilities.h"
 #include "graph/plan_memory.h"
+#include "graph/shader_log.h"
 
 #include <algorithm>
 #include <cstring>
@@ -198,7 +199,7 @@ void Graph::build_programs() {
             if (good) newest_files_ = program->files();
             bool told = built.text == text && texts(built.errors) == texts(program->errors());
             for (const ShaderError& error : program->errors())
-                if (!told) spdlog::error("shader: {}", error.text());
+                if (!told && shader_errors_logged()) spdlog::error("shader: {}", error.text());
             built = {text, program->errors()};
             if (good && frames_ > 0) spdlog::info("shader: {} compiled", program->stages().front().string());
         }
