@@ -1,11 +1,13 @@
 // bounce: subcommands, nothing else.
 #include "app/capture.h"
 #include "app/commands/command.h"
+#include "app/commands/option_checks.h"
 #include "app/commands/usage_error.h"
 #include "app/hosts/headless.h"
 #include "app/origin.h"
 #include "app/print.h"
 #include "core/error.h"
+#include "core/limits.h"
 #include "core/log.h"
 
 #include <new>
@@ -18,6 +20,9 @@ int main(int argc, char** argv) {
     bool verbose = false, list_devices = false;
     app.add_flag("--verbose,-v", verbose, "show debug messages");
     app.add_flag("--list-devices", list_devices, "list the EGL devices for --device");
+    std::string max_texture;
+    app.add_option("--max-texture", max_texture, "WxH: pixels of a scene's textures in all (16384x16384)")
+        ->check(texture_pixels());
     app.require_subcommand(0, 1);
     app.fallthrough();
     CommandFunction chosen;
@@ -48,6 +53,7 @@ int main(int argc, char** argv) {
         print_error("error: {}\n", usage_error(app, error, argc, argv));
         return 2;
     }
+    if (!max_texture.empty()) set_max_texture_pixels(parse_texture_pixels(max_texture));
     start_log(verbose);
     try {
         if (list_devices) {

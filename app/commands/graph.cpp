@@ -1,9 +1,11 @@
 // bounce graph: prints a graph's plan.
 #include "app/commands/command.h"
+#include "app/commands/option_checks.h"
 #include "app/commands/session_options.h"
 #include "app/print.h"
 #include "core/error.h"
 #include "graph/model.h"
+#include "scene/find_scene.h"
 
 #include <fmt/format.h>
 
@@ -19,6 +21,8 @@ struct GraphArguments {
 };
 
 int print_graph(const GraphArguments& arguments) {
+    find_graph(arguments.name);
+    find_shot(arguments.shot);
     SessionArguments shared;
     shared.sets = arguments.sets;
     shared.size = arguments.size;
@@ -42,7 +46,7 @@ void add_graph_command(CLI::App& app, CommandFunction& chosen) {
         ->type_name("SHOT")
         ->capture_default_str();
     command->add_option("--set", arguments->sets, "a parameter: pass.name=value")->allow_extra_args(false);
-    command->add_option("--size", arguments->size, "WxH instead of the shot's size");
+    command->add_option("--size", arguments->size, "WxH instead of the shot's size")->check(picture_size());
     command->add_flag("--graphviz", arguments->graphviz, "as a Graphviz digraph (dot -Tsvg)");
     command->callback([arguments, &chosen] { chosen = [arguments] { return print_graph(*arguments); }; });
 }

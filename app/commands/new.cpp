@@ -1,5 +1,6 @@
 // bounce new pass: writes a working pass to start from.
 #include "app/commands/command.h"
+#include "app/commands/option_checks.h"
 #include "app/new_pass.h"
 #include "app/print.h"
 
@@ -16,6 +17,7 @@ void add_new_command(CLI::App& app, CommandFunction& chosen) {
     pass->add_option("name", request->name, "lower case letters and digits")->required();
     pass->add_option("--graph,-g", request->graph, "the graph file that gets the entry")
         ->type_name("GRAPH")
+        ->check(not_empty())
         ->capture_default_str();
     pass->add_flag("--cpp", request->cpp, "also write a C++ pass class");
     pass->callback([request, &chosen] {

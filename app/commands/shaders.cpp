@@ -1,5 +1,6 @@
 // bounce shaders: expands every program of every graph to standalone files (for other compilers to judge).
 #include "app/commands/command.h"
+#include "app/commands/option_checks.h"
 #include "app/print.h"
 #include "core/error.h"
 #include "core/image.h"
@@ -73,7 +74,10 @@ int expand_all(const std::string& folder) {
 void add_shaders_command(CLI::App& app, CommandFunction& chosen) {
     auto* command = app.add_subcommand("shaders", "expand the shaders of every graph to standalone files");
     auto folder = std::make_shared<std::string>();
-    command->add_option("--expand", *folder, "the folder to write to")->type_name("FILE")->required();
+    command->add_option("--expand", *folder, "the folder to write to")
+        ->type_name("FILE")
+        ->check(not_empty())
+        ->required();
     command->callback([folder, &chosen] { chosen = [folder] { return expand_all(*folder); }; });
 }
 

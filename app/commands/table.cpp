@@ -1,6 +1,7 @@
 // bounce table: costs in the form of a paper's tables and beside its figures, or errors against the reference.
 #include "app/capture.h"
 #include "app/commands/command.h"
+#include "app/commands/option_checks.h"
 #include "app/commands/session_options.h"
 #include "app/experiments/cost_table.h"
 #include "app/experiments/error_table.h"
@@ -49,10 +50,14 @@ std::string measured_costs(const TableArguments& arguments) {
     return origin_head({origin_here()}) + "\n" + cost_table_markdown(file, measured);
 }
 
-int print_table(const TableArguments& arguments) {
-    if (!arguments.output.empty()) check_output_folder(arguments.output);
+std::string table_text(const TableArguments& arguments) {
     const std::filesystem::path path = find_table(arguments.table);
-    const std::string text = is_error_table(path) ? measured_errors(arguments, path) : measured_costs(arguments);
+    return is_error_table(path) ? measured_errors(arguments, path) : measured_costs(arguments);
+}
+
+int print_table(const TableArguments& arguments) {
+    if (!arguments.output.empty()) check_output_file(arguments.output);
+    const std::string text = table_text(arguments);
     if (arguments.output.empty())
         print("{}", text);
     else
@@ -66,16 +71,17 @@ void add_table_command(CLI::App& app, CommandFunction& chosen) {
         app.add_subcommand("table", "costs beside a paper's figures, or errors against the reference, as Markdown");
     auto arguments = std::make_shared<TableArguments>();
     command->add_option("table", arguments->table, "a table: name or .json")->type_name("TABLE")->required();
-    command->add_option("--size", arguments->size, "WxH instead of the shots' sizes");
+    command->add_option("--size", arguments->size, "WxH instead of the shots' sizes")->check(picture_size());
     command->add_option("--warmup", arguments->warm_up, "frames before measuring")
-        ->check(CLI::Range(0, 1000))
+        ->check(whole_between(0, 1000))
         ->capture_default_str();
     command->add_option("--frames", arguments->frames, "frames that are measured")
-        ->check(CLI::Range(1, 10000))
+        ->check(whole_between(1, 10000))
         ->capture_default_str();
     command->add_option("-o,--output", arguments->output, "write to this .md instead of the terminal")
-        ->type_name("FILE");
-    command->add_option("--device", arguments->device, "EGL device to render on (see --list-devices)");
+        ->type_name("FILE")
+        ->check(not_empty());
+    add_device_option(*command, arguments->device);
     command->callback([arguments, &chosen] { chosen = [arguments] { return print_table(*arguments); }; });
 }
 
