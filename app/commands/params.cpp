@@ -3,6 +3,7 @@
 #include "app/print.h"
 #include "core/asset_files.h"
 #include "core/error.h"
+#include "core/printable.h"
 #include "graph/model.h"
 
 #include <fmt/format.h>
@@ -21,7 +22,8 @@ void print_set(const std::string& id, const ParameterSet& set, bool markdown) {
         std::string unit = p.info.unit.empty() ? "" : " " + p.info.unit;
         std::string help = p.info.help + (p.info.is_static ? " (compiled in)" : "");
         if (markdown)
-            print("| `{}` | {} | {}{} | {} |\n", name, value, range, unit, help);
+            print("| `{}` | {} | {}{} | {} |\n", name, markdown_cell(value), markdown_cell(range), markdown_cell(unit),
+                  markdown_cell(help));
         else
             print("  {:<32} {:<12} {:<24} {}\n", name, value, range + unit, help);
     }

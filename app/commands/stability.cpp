@@ -8,6 +8,7 @@
 #include "app/origin.h"
 #include "app/print.h"
 #include "core/error.h"
+#include "core/printable.h"
 #include "graph/shader_log.h"
 
 #include <fmt/format.h>
@@ -30,8 +31,9 @@ std::string stability_markdown(const StabilityArguments& arguments, const Sessio
            fmt::format("\n| picture | shot | graph | frames | mean | change | flicker | 99th percentile |\n"
                        "| --- | --- | --- | ---: | ---: | ---: | ---: | ---: |\n"
                        "| {} | {} | {} | {} | {:.5g} | {:.3f} % | {:.3f} % | {:.3f} % |\n",
-                       arguments.resource, session.shot().name, session.graph().model().file().name, figures.frames,
-                       figures.mean, 100 * figures.change, 100 * figures.flicker, 100 * figures.flicker_p99);
+                       markdown_cell(arguments.resource), markdown_cell(session.shot().name),
+                       markdown_cell(session.graph().model().file().name), figures.frames, figures.mean,
+                       100 * figures.change, 100 * figures.flicker, 100 * figures.flicker_p99);
 }
 
 int print_stability(const StabilityArguments& arguments) {

@@ -6,6 +6,7 @@
 #include "app/session.h"
 #include "app/timings.h"
 #include "core/error.h"
+#include "core/printable.h"
 #include "core/text.h"
 #include "graph/shader_log.h"
 
@@ -181,13 +182,13 @@ std::string cost_table_markdown(const CostTableFile& file, const std::vector<Cos
         out += fmt::format("| {} |", unit);
         std::string rule = "| --- |";
         for (size_t c = 0; c < measured.size(); ++c) {
-            out += " " + file.columns[c].name + " |";
+            out += " " + markdown_cell(file.columns[c].name) + " |";
             rule += " ---: |";
         }
         out += "\n" + rule + "\n";
         std::vector<double> published_total(measured.size(), 0);
         for (size_t r = 0; r < rows.size(); ++r) {
-            out += "| " + rows[r].name + " |";
+            out += "| " + markdown_cell(rows[r].name) + " |";
             for (size_t c = 0; c < measured.size(); ++c) {
                 std::optional<double> value = values(measured[c])[r];
                 out += value ? fmt::format(" {:.1f}", *value) : " not run";
@@ -221,7 +222,7 @@ std::string cost_table_markdown(const CostTableFile& file, const std::vector<Cos
     if (file.error_samples > 0) {
         out += "| error |";
         for (size_t c = 0; c < measured.size(); ++c)
-            out += " " + file.columns[c].name + " |";
+            out += " " + markdown_cell(file.columns[c].name) + " |";
         out += "\n| --- |";
         for (size_t c = 0; c < measured.size(); ++c)
             out += " ---: |";

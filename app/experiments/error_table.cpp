@@ -6,6 +6,7 @@
 #include "app/experiments/transport.h"
 #include "core/comparison.h"
 #include "core/error.h"
+#include "core/printable.h"
 #include "graph/shader_log.h"
 #include "reference/reference_image.h"
 #include "scene/shot.h"
@@ -196,18 +197,18 @@ std::string error_table_markdown(const ErrorTableFile& file, const std::vector<E
         rule += " --- |";
     }
     for (const std::string& surface : surfaces) {
-        out += " " + surface + " |";
+        out += " " + markdown_cell(surface) + " |";
         rule += " ---: |";
     }
     out += " ms | MiB |\n" + rule + " ---: | ---: |\n";
     for (size_t i = 0; i < measured.size(); ++i) {
         const ErrorTableRow& row = file.rows[i];
         const ErrorTableMeasured& m = measured[i];
-        out += fmt::format("| {}, {}×{}{} | `{}` | {} |", row.shot, row.size.x, row.size.y,
-                           row.multiple > 1 ? fmt::format(" (rendered at {} times)", row.multiple) : "", row.graph,
-                           row.name);
+        out += fmt::format("| {}, {}×{}{} | `{}` | {} |", markdown_cell(row.shot), row.size.x, row.size.y,
+                           row.multiple > 1 ? fmt::format(" (rendered at {} times)", row.multiple) : "",
+                           markdown_cell(row.graph), markdown_cell(row.name));
         if (!m.skipped.empty()) {
-            out += fmt::format(" skipped: {} |\n", m.skipped);
+            out += fmt::format(" skipped: {} |\n", markdown_cell(m.skipped));
             continue;
         }
         for (const std::string& name : file.metrics)
@@ -216,7 +217,9 @@ std::string error_table_markdown(const ErrorTableFile& file, const std::vector<E
             const auto worst = std::max_element(
                 m.surfaces.begin(), m.surfaces.end(),
                 [](const SurfaceError& a, const SurfaceError& b) { return std::abs(a.bias) < std::abs(b.bias); });
-            out += worst == m.surfaces.end() ? " |" : fmt::format(" {} {} |", worst->name, percent(worst->bias));
+            out += worst == m.surfaces.end()
+                       ? " |"
+                       : fmt::format(" {} {} |", markdown_cell(worst->name), percent(worst->bias));
         }
         for (const std::string& surface : surfaces) {
             const auto found = std::find_if(m.surfaces.begin(), m.surfaces.end(),
