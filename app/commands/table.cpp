@@ -1,4 +1,4 @@
-// bounce table: costs in the form of a paper's tables and beside its figures, or errors against the reference.
+// bounce table: costs in the form of a paper's tables and beside its figures, errors against the reference, or limits.
 #include "app/capture.h"
 #include "app/commands/command.h"
 #include "app/commands/option_checks.h"
@@ -11,6 +11,8 @@
 #include "app/print.h"
 #include "core/error.h"
 #include "core/image.h"
+#include "core/limits.h"
+#include "gpu/shader_limits.h"
 
 #include <fmt/format.h>
 
@@ -50,7 +52,20 @@ std::string measured_costs(const TableArguments& arguments) {
     return origin_head({origin_here()}) + "\n" + cost_table_markdown(file, measured);
 }
 
+/// What nothing has to be measured for.
+std::string limits_table() {
+    std::string out = origin_head({origin_here()}) + "\nWhat is read and made at most, and what happens beyond.\n\n" +
+                      limits_markdown();
+    out += "\nWhat the text of a shader may hold; beyond, the shader has an error, and no driver sees it.\n\n"
+           "| what | at most | option |\n| --- | --- | --- |\n";
+    for (const ShaderLimitEntry& entry : shader_limit_entries())
+        out += fmt::format("| {} | {} | `--shader-limit {}=N` |\n", entry.help,
+                           grouped(uint64_t(ShaderLimits().*entry.value)), entry.name);
+    return out;
+}
+
 std::string table_text(const TableArguments& arguments) {
+    if (arguments.table == "limits") return limits_table();
     const std::filesystem::path path = find_table(arguments.table);
     return is_error_table(path) ? measured_errors(arguments, path) : measured_costs(arguments);
 }
@@ -70,7 +85,9 @@ void add_table_command(CLI::App& app, CommandFunction& chosen) {
     auto* command =
         app.add_subcommand("table", "costs beside a paper's figures, or errors against the reference, as Markdown");
     auto arguments = std::make_shared<TableArguments>();
-    command->add_option("table", arguments->table, "a table: name or .json")->type_name("TABLE")->required();
+    command->add_option("table", arguments->table, "a table (name or .json), or limits: what is taken at most")
+        ->type_name("TABLE")
+        ->required();
     command->add_option("--size", arguments->size, "WxH instead of the shots' sizes")->check(picture_size());
     command->add_option("--warmup", arguments->warm_up, "frames before measuring")
         ->check(whole_between(0, 1000))

@@ -63,6 +63,8 @@ std::vector<LimitRow> limit_rows() {
         {"keys of a scene's animations", grouped(k_max_animation_keys), "refused before they are read"},
         {"memory of a scene, graph or reference", "what the machine, control group or ulimit leaves",
          "refused before it is taken, from an estimate that names what to lower"},
+        {"lights", "what the driver's layers of a texture allow: a point light has six shadow maps, others one",
+         "refused before a frame is rendered"},
         {"sizes and layers of textures, buffers, work groups", "what the driver allows",
          "refused before a frame is rendered"},
     };
