@@ -5,6 +5,7 @@
 #include "core/exr_file.h"
 #include "core/json_text.h"
 #include "core/log.h"
+#include "core/output_file.h"
 #include "core/text.h"
 
 #include <algorithm>
@@ -118,18 +119,36 @@ static const GpuTexture& find_texture(const Session& session, const std::string&
                             did_you_mean(resource, names)));
 }
 
+static double float_bytes(const TextureDesc& desc) {
+    return double(desc.size.x) * desc.size.y * desc.size.z * format_by_enum(desc.format).channels * sizeof(float);
+}
+
+double picture_bytes(const Session& session, const fs::path& path, const std::string& resource) {
+    const bool png = path.extension() == ".png";
+    const std::string shown = resource.empty() && png ? "out.display" : resource;
+    double parts = 0, largest = 0;
+    for (const PlanResource& known : session.graph().plan().resources) {
+        const bool part =
+            shown.empty() ? known.name().starts_with("out.") && known.name() != "out.display" : known.name() == shown;
+        if (!part || known.is_buffer()) continue;
+        parts += float_bytes(known.texture);
+        largest = std::max(largest, float_bytes(known.texture));
+    }
+    // One part twice while it is copied; a PNG's 8-bit copies are an eighth each; an EXR's file may be as large as its
+    // parts.
+    return png ? 2 * largest + largest / 4 : 2 * parts + largest;
+}
+
 void check_output_path(const fs::path& path) {
     std::string extension = path.extension().string();
     if (extension != ".exr" && extension != ".png") {
-        throw Error(fmt::format("'{}': pictures are written as .exr or .png", path.string()));
+        throw Error(fmt::format("invalid output name '{}': expected one that ends in .exr or .png", path.string()));
     }
-    check_output_folder(path);
+    check_output_file(path);
 }
 
-void check_output_folder(const fs::path& path) {
-    fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
-    if (!fs::is_directory(folder))
-        throw Error(fmt::format("'{}': there is no folder '{}'", path.string(), folder.string()));
+void check_output_file(const fs::path& path) {
+    check_writable(path);
 }
 
 /// Half floats end at 65504, and so do the shaders' stores. The pre-exposure is chosen so that this is rare; where it

@@ -24,11 +24,15 @@ LayeredImage read_parts(const Session& session);
 /// is 8-bit already). Throws Error (unknown resource with the nearest, unwritable path, other extension).
 void write_picture(const Session& session, const std::filesystem::path& path, const std::string& resource = "");
 
-/// Refuses an output path that cannot work before anything is computed: its extension and its folder.
+/// Bytes that write_picture takes of main memory, about: what is read back, and the encoded file. Wants a planned
+/// graph.
+double picture_bytes(const Session& session, const std::filesystem::path& path, const std::string& resource = "");
+
+/// Refuses an output path that cannot work before anything is computed: its extension, its name and its folder.
 void check_output_path(const std::filesystem::path& path);
 
-/// The folder of any file that is to be written.
-void check_output_folder(const std::filesystem::path& path);
+/// The same for any file that is to be written.
+void check_output_file(const std::filesystem::path& path);
 
 /// The commit that the program was built from.
 const char* program_commit();

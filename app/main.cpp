@@ -1,24 +1,28 @@
 // bounce: subcommands, nothing else.
 #include "app/capture.h"
 #include "app/commands/command.h"
+#include "app/commands/option_checks.h"
 #include "app/commands/usage_error.h"
 #include "app/hosts/headless.h"
 #include "app/origin.h"
+#include "app/print.h"
 #include "core/error.h"
+#include "core/limits.h"
 #include "core/log.h"
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <fmt/format.h>
+#include <new>
 
 int main(int argc, char** argv) {
     using namespace bounce;
+    prepare_streams();
     CLI::App app("Bounce: a research sandbox for real-time global illumination");
     app.set_version_flag("--version", std::string("bounce ") + program_commit());
     bool verbose = false, list_devices = false;
     app.add_flag("--verbose,-v", verbose, "show debug messages");
     app.add_flag("--list-devices", list_devices, "list the EGL devices for --device");
+    std::string max_texture;
+    app.add_option("--max-texture", max_texture, "WxH: pixels of a scene's textures in all (16384x16384)")
+        ->check(texture_pixels());
     app.require_subcommand(0, 1);
     app.fallthrough();
     CommandFunction chosen;
@@ -46,29 +50,28 @@ int main(int argc, char** argv) {
     } catch (const CLI::CallForVersion& version) {
         return app.exit(version);
     } catch (const CLI::ParseError& error) {
-        fmt::print(stderr, "error: {}\n", usage_error(app, error, argc, argv));
+        print_error("error: {}\n", usage_error(app, error, argc, argv));
         return 2;
     }
+    if (!max_texture.empty()) set_max_texture_pixels(parse_texture_pixels(max_texture));
     start_log(verbose);
     try {
         if (list_devices) {
             for (const HeadlessDevice& device : list_headless_devices())
-                fmt::print("{}: {}\n", device.index, device.name);
+                print("{}: {}\n", device.index, device.name);
             return 0;
         }
         const int code = chosen ? chosen() : run_default();
         // What is printed may be the result (--json): a full disk behind it is an error as behind any other file.
-        if (std::fflush(stdout) != 0 || std::ferror(stdout))
-            throw Error(fmt::format("cannot write the output: {}", std::strerror(errno)));
+        if (const std::string problem = output_problem(); !problem.empty())
+            throw Error("cannot write to standard output: " + problem);
         return code;
-    } catch (const Error& error) {
-        fmt::print(stderr, "error: {}\n", error.what());
-        return 2;
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "error: out of memory\n");
-        return 2;
+        print_error(
+            "error: out of memory: expected a smaller scene, --size or graph (`bounce graph` tells its bytes)\n");
     } catch (const std::exception& error) {
-        fmt::print(stderr, "error: {}\n", error.what());
-        return 2;
+        print_error("error: {}\n", error.what());
     }
+    (void)output_problem(); // what was told before the error is shown, too
+    return 2;
 }

@@ -1,7 +1,10 @@
 #include "app/session.h"
 
 #include "core/error.h"
+#include "core/limits.h"
 #include "core/log.h"
+#include "core/text.h"
+#include "gpu/device_memory.h"
 #include "scene/describe.h"
 #include "scene/pre_exposure.h"
 
@@ -44,8 +47,27 @@ std::unique_ptr<Graph> Session::make_graph(const std::string& name) const {
     return graph;
 }
 
+/// Bytes that a scene takes on the GPU: geometry, and textures with their mips.
+static double scene_bytes(const Scene& scene) {
+    double bytes = double(scene.vertices.size()) * sizeof(Vertex) + double(scene.indices.size()) * sizeof(uint32_t);
+    for (const Texture& texture : scene.textures)
+        bytes += double(texture.image.rgba.size()) * 4 / 3;
+    return bytes;
+}
+
+static void check_scene_fits(const Shot& shot) {
+    const double needed = scene_bytes(shot.scene);
+    const uint64_t free = available_device_memory();
+    if (needed <= double(free)) return;
+    throw Error(fmt::format("{}: {} triangles and {} textures need {} of memory on the GPU, but {} are free: use a "
+                            "smaller scene",
+                            shot.path.string(), grouped(shot.scene.indices.size() / 3), shot.scene.textures.size(),
+                            format_bytes(needed), format_bytes(double(free))));
+}
+
 void Session::load_scene_to_gpu() {
     facts_ = shot_facts(*shot_);
+    check_scene_fits(*shot_);
     if (std::string strays = describe_strays(facts_); !strays.empty()) spdlog::warn("{}: {}", shot_->name, strays);
     gpu_scene_ = std::make_unique<GpuScene>(shot_->scene, shot_->environment);
     rendered_frame_ = -1;

@@ -30,20 +30,24 @@ unlock() { exec 9>&-; }
 
 missing_packages() {
     local wanted
-    wanted=$(grep -v '^[[:space:]]*\(#\|$\)' "$root/third_party/packages.txt")
+    wanted=$(
+        grep -v '^[[:space:]]*\(#\|$\)' "$root/third_party/packages.txt"
+        printf '%s\n' "$@"
+    )
     # shellcheck disable=SC2086 # one word a package
     comm -23 <(sort <<<"$wanted") \
         <(dpkg-query --show --showformat='${db:Status-Abbrev} ${Package}\n' $wanted 2>/dev/null |
             sed -n 's/^.i[[:space:]]*//p' | sort -u)
 }
 
+# install_packages [PACKAGE…]: those of third_party/packages.txt, and these.
 install_packages() {
     if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
         say "This is not a Debian system: third_party/packages.txt lists what has to be installed by hand."
         return 0
     fi
     local missing as_root=() log
-    missing=$(missing_packages)
+    missing=$(missing_packages "$@")
     [[ -n $missing ]] || return 0
     missing=$(tr '\n' ' ' <<<"$missing")
     if ((EUID != 0)); then
@@ -54,7 +58,7 @@ install_packages() {
     as_root+=(env DEBIAN_FRONTEND=noninteractive)
     local apt=("${as_root[@]}" apt-get -q -y -o DPkg::Lock::Timeout=600)
     log=$(mktemp)
-    say "Installing the system packages of third_party/packages.txt that are missing: $missing"
+    say "Installing the system packages that are missing: $missing"
     if [[ -n $(dpkg --audit) ]]; then # an earlier installation was interrupted
         run_logged "$log" "${as_root[@]}" dpkg --configure -a || fail "dpkg could not finish an earlier installation"
     fi

@@ -72,7 +72,7 @@ void write_timings(const Session& session, const std::filesystem::path& path) {
     json["rebuild"] = graph.model().rebuild() == Rebuild::on_change ? "on_change" : "every_frame";
     json["total_ms"] = graph.frame_ms();
     json["total_bytes"] = graph.plan().total_bytes();
-    write_file_atomically(path, json.dump(2) + "\n");
+    write_file_atomically(path, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 } // namespace bounce

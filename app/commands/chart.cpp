@@ -1,12 +1,16 @@
 // bounce chart: error against time, over shots, graphs and parameters.
 #include "app/experiments/chart.h"
 #include "app/commands/command.h"
+#include "app/commands/option_checks.h"
 #include "app/commands/session_options.h"
 #include "app/experiments/sweep.h"
 #include "app/hosts/headless.h"
+#include "app/listing.h"
+#include "app/print.h"
 #include "core/error.h"
 #include "core/scanner.h"
 #include "core/text.h"
+#include "scene/find_scene.h"
 #include "scene/shot.h"
 
 #include <fmt/format.h>
@@ -25,20 +29,8 @@ struct ChartArguments {
     ChartArguments() { session.size = "320x180"; }
 };
 
-/// "2/8": the third of eight.
-std::pair<int, int> parse_shard(const std::string& text) {
-    if (text.empty()) return {0, 1};
-    Scanner scanner(text);
-    std::optional<int> i = scanner.number(6);
-    if (i && scanner.take('/')) {
-        std::optional<int> n = scanner.number(6);
-        if (n && scanner.at_end() && *n >= 1 && *i < *n) return {*i, *n};
-    }
-    throw Error("--shard " + shortened(text) + ": it is written i/n with i = 0 … n − 1");
-}
-
 void print_line(const std::string& line) {
-    fmt::print("{}\n", line);
+    print("{}\n", line);
     std::fflush(stdout);
 }
 
@@ -49,13 +41,12 @@ int run(const ChartArguments& a) {
     if (!a.merge.empty()) {
         std::vector<std::filesystem::path> folders(a.merge.begin(), a.merge.end());
         merge_charts(folders, a.output, view, print_line);
-        fmt::print("{}/chart.html\n", a.output);
+        print("{}/chart.html\n", a.output);
         return 0;
     }
-    if (a.shots.empty()) throw Error("chart: name at least one shot");
-    if (a.frames < 1 || a.warm_up < 0 || a.frames > 100000 || a.warm_up > 100000)
-        throw Error("--frames is at least 1 and --warmup at least 0");
-    if (a.samples == 0 && !(a.noise > 0 && a.noise < 1)) throw Error("--noise is between 0 and 1");
+    if (a.shots.empty()) throw Error("chart: expected at least one shot");
+    for (const std::string& shot : a.shots)
+        find_shot(shot);
     const SessionOptions options = a.session.options();
     Sweep sweep;
     if (!a.sweep.empty()) sweep = load_sweep(a.sweep);
@@ -65,7 +56,7 @@ int run(const ChartArguments& a) {
     plan.folder = a.output;
     plan.view = view;
     plan.resume = a.resume;
-    std::tie(plan.shard, plan.shards) = parse_shard(a.shard);
+    if (!a.shard.empty()) std::tie(plan.shard, plan.shards) = parse_shard(a.shard);
     for (const std::string& shot : a.shots) {
         for (const std::string& graph : split(a.graphs, ',')) {
             find_graph(graph); // a wrong name is told before anything is computed
@@ -89,7 +80,7 @@ int run(const ChartArguments& a) {
     }
     HeadlessContext context(a.session.device);
     run_chart(plan, print_line);
-    fmt::print("{}/chart.html\n", a.output);
+    print("{}/chart.html\n", a.output);
     return 0;
 }
 
@@ -101,9 +92,11 @@ void add_chart_command(CLI::App& app, CommandFunction& chosen) {
     command->add_option("shots", a->shots, "shots or scenes")->type_name("SHOT");
     command->add_option("--graphs,-g", a->graphs, "graphs, separated by commas")
         ->type_name("GRAPHS")
+        ->check(not_empty())
         ->capture_default_str();
     command->add_option("--sweep", a->sweep, "a sweep: name or .json (base values and lists to permute)")
-        ->type_name("SWEEP");
+        ->type_name("SWEEP")
+        ->check(not_empty());
     a->session.add_settings_to(*command);
     command
         ->add_option(
@@ -111,14 +104,26 @@ void add_chart_command(CLI::App& app, CommandFunction& chosen) {
             "compare this part (out.ambient_occlusion) instead of what the graph's transport says; repeatable: "
             "their sum")
         ->allow_extra_args(false);
-    command->add_option("--warmup", a->warm_up, "frames before timing starts")->capture_default_str();
-    command->add_option("--frames", a->frames, "frames that are timed")->capture_default_str();
-    command->add_option("--noise", a->noise, "relative noise of the references")->capture_default_str();
-    command->add_option("--spp", a->samples, "samples a pixel of the references, instead of --noise");
-    command->add_option("--shard", a->shard, "i/n: measure only every n-th point, from the i-th (0 … n − 1)");
-    command->add_option("--against", a->against,
-                        "draw the error over this parameter (d_max, or hbao_dmax.d_max) instead of over time");
-    command->add_option("--metric", a->metric, "draw errors by this metric (bounce list metrics)")->type_name("METRIC");
+    command->add_option("--warmup", a->warm_up, "frames before timing starts")
+        ->check(whole_between(0, 100000))
+        ->capture_default_str();
+    command->add_option("--frames", a->frames, "frames that are timed")
+        ->check(whole_between(1, 100000))
+        ->capture_default_str();
+    command->add_option("--noise", a->noise, "relative noise of the references")
+        ->check(number_between(1e-6, 1))
+        ->capture_default_str();
+    command->add_option("--spp", a->samples, "samples a pixel of the references, instead of --noise")
+        ->check(whole_between(2, 1 << 20));
+    command->add_option("--shard", a->shard, "i/n: measure only every n-th point, from the i-th (0 … n − 1)")
+        ->check(shard());
+    command
+        ->add_option("--against", a->against,
+                     "draw the error over this parameter (d_max, or hbao_dmax.d_max) instead of over time")
+        ->check(not_empty());
+    command->add_option("--metric", a->metric, "draw errors by this metric (bounce list metrics)")
+        ->type_name("METRIC")
+        ->check(one_of(names_of("metrics")));
     command->add_flag("--resume,!--no-resume", a->resume,
                       "keep points that are measured already (the default), or measure all again");
     command->add_option("--merge", a->merge, "join the points of these folders instead of measuring")

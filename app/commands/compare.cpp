@@ -1,7 +1,9 @@
 // bounce compare: how far one picture is from another, part by part.
 #include "app/capture.h"
 #include "app/commands/command.h"
+#include "app/commands/option_checks.h"
 #include "app/experiments/comparison_text.h"
+#include "app/print.h"
 #include "core/error.h"
 #include "core/heat_map.h"
 
@@ -25,10 +27,7 @@ struct CompareArguments {
 };
 
 int compare(const CompareArguments& arguments) {
-    if (!arguments.heatmap.empty()) check_output_folder(arguments.heatmap);
-    if (arguments.window < 1 || arguments.window > k_max_window || arguments.window % 2 == 0)
-        throw Error(
-            fmt::format("invalid --window '{}': expected an odd number from 1 to {}", arguments.window, k_max_window));
+    if (!arguments.heatmap.empty()) check_output_file(arguments.heatmap);
     bool image_display = false, reference_display = false;
     PicturePlace image_place, reference_place;
     LayeredImage image = read_picture(arguments.image, image_display, &image_place);
@@ -70,9 +69,9 @@ int compare(const CompareArguments& arguments) {
     }
     // The figures first: a false-colour picture that cannot be written does not cost them.
     if (arguments.json)
-        fmt::print("{}\n", comparison_json(report));
+        print("{}\n", comparison_json(report));
     else
-        fmt::print("{}", comparison_text(report));
+        print("{}", comparison_text(report));
     if (!arguments.heatmap.empty()) {
         // The picture as a whole where there is one, unless a part was asked for.
         std::string part = comparison.parts.front().part;
@@ -101,22 +100,26 @@ void add_compare_command(CLI::App& app, CommandFunction& chosen) {
     command
         ->add_option("--resource", a->parts,
                      "only this part, or sum of parts (out.emitted+out.indirect_diffuse); repeatable")
+        ->check(not_empty())
         ->allow_extra_args(false);
     command->add_option("--heatmap", a->heatmap, "write the relative error in false colour to this .png")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->check(not_empty());
     command->add_option("--heatmap-top", a->heatmap_top, "the error (of the reference's mean) that is brightest there")
         ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+        ->check(number_between(1e-6, 1e6));
     command->add_flag("--json", a->json, "print JSON");
     command->add_flag("--no-mask", a->no_mask, "count edge pixels too");
     command->add_flag("--per-surface", a->per_surface, "also by material and dominant normal axis");
     command->add_option("--window", a->window, "also compare means over N x N pixels inside the mask (N odd)")
+        ->check(odd_between(1, k_max_window))
         ->capture_default_str();
     auto* exposure =
-        command->add_option("--exposure", a->exposure, "stops, for SSIM and FLIP; else from the reference's mean");
+        command->add_option("--exposure", a->exposure, "stops, for SSIM and FLIP; else from the reference's mean")
+            ->check(number_between(-64, 64));
     command->add_option("--ppd", a->ppd, "pixels per degree of the viewer, for FLIP")
         ->capture_default_str()
-        ->check(CLI::Range(1.0, 1000.0));
+        ->check(number_between(1, 1000));
     command->callback([a, exposure, &chosen] {
         a->exposure_given = exposure->count() > 0;
         chosen = [a] { return compare(*a); };

@@ -2,7 +2,9 @@
 #include "app/commands/completion.h"
 
 #include "app/commands/command.h"
+#include "app/commands/option_checks.h"
 #include "app/listing.h"
+#include "app/print.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -175,10 +177,10 @@ std::string completion_script(const CLI::App& app, const std::string& shell) {
 void add_completion_command(CLI::App& app, CommandFunction& chosen) {
     auto* command = app.add_subcommand("completion", "print a script that completes command lines in a shell");
     auto shell = std::make_shared<std::string>();
-    command->add_option("shell", *shell, "bash or zsh")->required()->type_name("SHELL");
+    command->add_option("shell", *shell, "bash or zsh")->required()->type_name("SHELL")->check(one_of({"bash", "zsh"}));
     command->callback([shell, &app, &chosen] {
         chosen = [shell, &app] {
-            fmt::print("{}", completion_script(app, *shell));
+            print("{}", completion_script(app, *shell));
             return 0;
         };
     });

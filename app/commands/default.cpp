@@ -1,10 +1,12 @@
 // bounce without arguments: a shot with global illumination, in a window where there is a display. Else to a picture,
 // with what it costs and how far it is from the truth.
+#include "app/broken_shaders.h"
 #include "app/capture.h"
 #include "app/commands/command.h"
 #include "app/experiments/report.h"
 #include "app/experiments/transport.h"
 #include "app/hosts/headless.h"
+#include "app/print.h"
 #include "app/progress.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -69,13 +71,12 @@ int render_default() {
         session.render(true);
         bar.update(double(frame + 1) / k_frames);
     }
-    for (const GraphProblem& problem : session.graph().problems())
-        throw Error("nothing was written: " + problem.error.text());
+    throw_if_broken(session, "nothing was written");
     write_picture(session, output);
     session.graph().finish_timings();
-    fmt::print("{}: {} through {}, {:.3g} ms per frame, {}; against a path tracer, {} samples per pixel: {}\n", output,
-               options.shot, options.graph, session.graph().frame_ms(),
-               format_bytes(double(session.graph().plan().total_bytes())), k_reference_samples, errors_of(session));
+    print("{}: {} through {}, {:.3g} ms per frame, {}; against a path tracer, {} samples per pixel: {}\n", output,
+          options.shot, options.graph, session.graph().frame_ms(),
+          format_bytes(double(session.graph().plan().total_bytes())), k_reference_samples, errors_of(session));
     return 0;
 }
 

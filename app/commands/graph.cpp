@@ -1,9 +1,12 @@
 // bounce graph: prints a graph's plan.
 #include "app/commands/command.h"
+#include "app/commands/option_checks.h"
 #include "app/commands/session_options.h"
+#include "app/print.h"
 #include "core/error.h"
 #include "graph/graph_overlay.h"
 #include "graph/model.h"
+#include "scene/find_scene.h"
 
 #include <fmt/format.h>
 
@@ -39,10 +42,12 @@ int print_graph(const GraphArguments& arguments) {
     if (arguments.expanded || !arguments.diff.empty()) {
         for (const std::string& name : {arguments.name, arguments.diff})
             if (!name.empty()) GraphModel(read_graph_file(find_graph(name))); // what is wrong with it is reported
-        fmt::print("{}", arguments.diff.empty() ? graph_text(whole_graph(arguments.name))
-                                                : departures_text(arguments.name, arguments.diff));
+        print("{}", arguments.diff.empty() ? graph_text(whole_graph(arguments.name))
+                                           : departures_text(arguments.name, arguments.diff));
         return 0;
     }
+    find_graph(arguments.name);
+    find_shot(arguments.shot);
     SessionArguments shared;
     shared.sets = arguments.sets;
     shared.size = arguments.size;
@@ -52,7 +57,7 @@ int print_graph(const GraphArguments& arguments) {
         model.set(name, text, ParameterOrigin::command_line);
     Shot shot = load_shot(arguments.shot);
     Plan plan = model.plan(shot_facts(shot), options.size.value_or(glm::ivec2(shot.width, shot.height)));
-    fmt::print("{}", arguments.graphviz ? plan_graphviz(model, plan) : plan_text(model, plan));
+    print("{}", arguments.graphviz ? plan_graphviz(model, plan) : plan_text(model, plan));
     return 0;
 }
 } // namespace
@@ -66,7 +71,7 @@ void add_graph_command(CLI::App& app, CommandFunction& chosen) {
         ->type_name("SHOT")
         ->capture_default_str();
     command->add_option("--set", arguments->sets, "a parameter: pass.name=value")->allow_extra_args(false);
-    command->add_option("--size", arguments->size, "WxH instead of the shot's size");
+    command->add_option("--size", arguments->size, "WxH instead of the shot's size")->check(picture_size());
     command->add_flag("--graphviz", arguments->graphviz, "as a Graphviz digraph (dot -Tsvg)");
     auto* expanded = command->add_flag("--expanded", arguments->expanded, "as one graph file that extends nothing");
     command

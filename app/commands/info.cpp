@@ -1,5 +1,6 @@
 // bounce info: what a scene or shot holds, and so what it needs.
 #include "app/commands/command.h"
+#include "app/print.h"
 #include "scene/describe.h"
 #include "scene/shot.h"
 
@@ -13,7 +14,7 @@ void add_info_command(CLI::App& app, CommandFunction& chosen) {
     command->add_option("file", *file, "a scene (.gltf, .glb) or shot")->type_name("SHOT")->required();
     command->callback([file, &chosen] {
         chosen = [file] {
-            fmt::print("{}", describe_scene(load_shot(*file)));
+            print("{}", describe_scene(load_shot(*file)));
             return 0;
         };
     });

@@ -1,6 +1,8 @@
 // bounce list: the names that other commands take.
 #include "app/commands/command.h"
+#include "app/commands/option_checks.h"
 #include "app/listing.h"
+#include "app/print.h"
 
 #include <fmt/format.h>
 
@@ -12,11 +14,14 @@ void add_list_command(CLI::App& app, CommandFunction& chosen) {
         kinds.push_back(kind.name);
     auto* command = app.add_subcommand("list", "list the names that other commands take");
     auto wanted = std::make_shared<std::string>();
-    command->add_option("kind", *wanted, CLI::detail::join(kinds, ", "))->required()->type_name("KIND");
+    command->add_option("kind", *wanted, CLI::detail::join(kinds, ", "))
+        ->required()
+        ->type_name("KIND")
+        ->check(one_of(kinds));
     command->callback([wanted, &chosen] {
         chosen = [wanted] {
             for (const std::string& name : names_of(*wanted))
-                fmt::print("{}\n", name);
+                print("{}\n", name);
             return 0;
         };
     });

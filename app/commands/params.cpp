@@ -1,7 +1,9 @@
 // bounce params: every parameter of a graph (or of all graphs), as text or Markdown.
 #include "app/commands/command.h"
+#include "app/print.h"
 #include "core/asset_files.h"
 #include "core/error.h"
+#include "core/printable.h"
 #include "graph/model.h"
 
 #include <fmt/format.h>
@@ -20,19 +22,20 @@ void print_set(const std::string& id, const ParameterSet& set, bool markdown) {
         std::string unit = p.info.unit.empty() ? "" : " " + p.info.unit;
         std::string help = p.info.help + (p.info.is_static ? " (compiled in)" : "");
         if (markdown)
-            fmt::print("| `{}` | {} | {}{} | {} |\n", name, value, range, unit, help);
+            print("| `{}` | {} | {}{} | {} |\n", name, markdown_cell(value), markdown_cell(range), markdown_cell(unit),
+                  markdown_cell(help));
         else
-            fmt::print("  {:<32} {:<12} {:<24} {}\n", name, value, range + unit, help);
+            print("  {:<32} {:<12} {:<24} {}\n", name, value, range + unit, help);
     }
 }
 
 void print_graph_parameters(const std::filesystem::path& path, bool markdown) {
     GraphModel model(read_graph_file(path));
     if (markdown)
-        fmt::print("\n### {}\n\n{}\n\n| parameter | value | range, unit | what it is |\n| --- | --- | --- | --- |\n",
-                   model.file().name, model.file().about);
+        print("\n### {}\n\n{}\n\n| parameter | value | range, unit | what it is |\n| --- | --- | --- | --- |\n",
+              model.file().name, model.file().about);
     else
-        fmt::print("{}: {}\n", model.file().name, model.file().about);
+        print("{}: {}\n", model.file().name, model.file().about);
     print_set("graph", model.graph_parameters(), markdown);
     for (const auto& node : model.nodes())
         print_set(node->id(), node->parameters, markdown);

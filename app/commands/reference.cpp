@@ -1,14 +1,17 @@
 // bounce reference: the path-traced truth of a shot, to a file.
 #include "app/capture.h"
 #include "app/commands/command.h"
+#include "app/commands/option_checks.h"
 #include "app/experiments/transport.h"
+#include "app/print.h"
 #include "app/progress.h"
 #include "core/error.h"
 #include "core/exr_file.h"
-#include "core/scanner.h"
+#include "core/limits.h"
 #include "core/text.h"
 #include "reference/reference_image.h"
 #include "scene/describe.h"
+#include "scene/find_scene.h"
 
 #include <algorithm>
 #include <atomic>
@@ -17,9 +20,7 @@
 #include <csignal>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <spdlog/spdlog.h>
-#include <tuple>
 #include <unistd.h>
 
 namespace bounce {
@@ -59,21 +60,20 @@ class InterruptGuard {
     }, old_terminate_{};
 };
 
-int parse_bounces(const std::string& text) {
-    if (text == "unlimited") return k_unlimited_bounces;
-    Scanner scanner(text);
-    std::optional<int> number = scanner.number(4);
-    if (!number || !scanner.at_end()) {
-        throw Error("--bounces " + shortened(text) + ": it is a number from 0 (direct light only), or 'unlimited'");
-    }
-    return *number;
+/// "unlimited", or a whole number up to 9999.
+CLI::Validator bounces() {
+    const CLI::Validator number = whole_between(0, 9999);
+    return CLI::Validator(
+        [number](std::string& text) {
+            if (text == "unlimited" || number(text).empty()) return std::string();
+            return fmt::format("'{}': expected a whole number from 0 (direct light only) to 9999, or 'unlimited'",
+                               text);
+        },
+        "");
 }
 
-void apply_size(const std::string& size, Shot& shot) {
-    if (size.empty()) return;
-    auto read = scan_size(size, 1, 5);
-    if (!read) throw Error("--size " + shortened(size) + ": it is written WxH, as 1280x720");
-    std::tie(shot.width, shot.height) = *read;
+int parse_bounces(const std::string& text) {
+    return text == "unlimited" ? k_unlimited_bounces : std::stoi(text);
 }
 
 std::string add_metadata(const std::string& made, const ReferenceArguments& arguments, const ReferenceResult& result) {
@@ -83,7 +83,7 @@ std::string add_metadata(const std::string& made, const ReferenceArguments& argu
     json["frame"] = arguments.frame;
     json["complete"] = result.complete;
     if (!arguments.resource.empty()) json["resource"] = arguments.resource;
-    return json.dump();
+    return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 /// As the graphs' tone map does by default (no curve), so that both programs' pictures can be laid side by side.
@@ -125,8 +125,10 @@ void write_or_save(const ReferenceArguments& arguments, const ReferenceResult& r
         if (!arguments.no_cache && result.kept_problem.empty()) {
             throw Error(std::string(error.what()) + "; the samples are kept: the same command goes on from them");
         }
-        const std::filesystem::path refuge =
-            std::filesystem::temp_directory_path() / fmt::format("bounce-reference-{}.exr", ::getpid());
+        // A folder of its own: in a shared one somebody else may have put a link of that name.
+        std::string folder = (std::filesystem::temp_directory_path() / "bounce-reference-XXXXXX").string();
+        if (!::mkdtemp(folder.data())) throw;
+        const std::filesystem::path refuge = std::filesystem::path(folder) / "reference.exr";
         LayeredImage file = result.image;
         file.metadata = add_metadata(result.image.metadata, arguments, result);
         try {
@@ -156,12 +158,18 @@ void check_resource(const std::string& resource) {
 }
 
 int reference(ReferenceArguments arguments) {
-    check_output_path(arguments.output);
+    find_shot(arguments.shot);
     check_resource(arguments.resource);
+    if (arguments.output.empty()) throw Error("invalid --output '': expected a file, as x.exr or x.png");
+    check_output_path(arguments.output);
     arguments.settings.bounces = parse_bounces(arguments.bounces);
     arguments.settings.occlusion_falloff = occlusion_falloff(arguments.occlusion_falloff);
     Shot shot = load_shot(arguments.shot);
-    apply_size(arguments.size, shot);
+    if (!arguments.size.empty()) {
+        const glm::ivec2 size = parse_size(arguments.size);
+        shot.width = size.x;
+        shot.height = size.y;
+    }
     // Lengths that are shares of the diagonal leave strays out: say so, as the other commands do.
     if (const std::string strays = describe_strays(shot_facts(shot)); !strays.empty()) spdlog::warn("{}", strays);
     if (!arguments.material_model.empty()) shot.material_model = material_model_named(arguments.material_model);
@@ -187,24 +195,24 @@ int reference(ReferenceArguments arguments) {
         result = reference_image(shot, arguments.settings, arguments.frame, goal, on_progress, !arguments.no_cache);
     }
     if (!result.kept_problem.empty()) {
-        fmt::print(stderr, "warning: the samples could not be kept for a later run: {}\n", result.kept_problem);
+        print_error("warning: the samples could not be kept for a later run: {}\n", result.kept_problem);
     }
     if (result.complete || result.samples >= 1) write_or_save(arguments, result);
     if (!arguments.quiet || !result.complete) {
-        fmt::print("{}: {} samples a pixel, noise {:.2f} % of {}{}\n", arguments.output, result.samples,
-                   100 * result.noise, goal.part,
-                   result.cached             ? " (from the cache)"
-                   : result.resumed_from > 0 ? fmt::format(" (resumed from {} samples)", result.resumed_from)
-                                             : "");
+        print("{}: {} samples a pixel, noise {:.2f} % of {}{}\n", arguments.output, result.samples, 100 * result.noise,
+              goal.part,
+              result.cached             ? " (from the cache)"
+              : result.resumed_from > 0 ? fmt::format(" (resumed from {} samples)", result.resumed_from)
+                                        : "");
     }
     if (!result.complete) {
-        fmt::print(stderr, "stopped before the goal; {}\n",
-                   arguments.no_cache || !result.kept_problem.empty() ? "nothing was kept for a later run"
-                                                                      : "the same command goes on from here");
+        print_error("stopped before the goal; {}\n", arguments.no_cache || !result.kept_problem.empty()
+                                                         ? "nothing was kept for a later run"
+                                                         : "the same command goes on from here");
         return interrupted ? 130 : 1;
     }
     if (goal.noise > 0 && result.noise > goal.noise) {
-        fmt::print(stderr, "warning: the noise is still above {} after {} samples\n", goal.noise, result.samples);
+        print_error("warning: the noise is still above {} after {} samples\n", goal.noise, result.samples);
     }
     return 0;
 }
@@ -217,34 +225,41 @@ void add_reference_command(CLI::App& app, CommandFunction& chosen) {
     command->add_option("shot", a->shot, "a shot (name or .json), or a scene (.gltf, .glb)")
         ->type_name("SHOT")
         ->required();
-    command->add_option("-o,--output", a->output, "x.exr (every part as a layer) or x.png")
-        ->type_name("FILE")
-        ->required();
+    command->add_option("-o,--output", a->output, "x.exr (every part as a layer) or x.png (required)")
+        ->type_name("FILE");
     command->add_option("--bounces", a->bounces, "scattering orders after direct light: 0, 1, … or 'unlimited'")
+        ->check(bounces())
         ->capture_default_str();
-    auto* samples = command->add_option("--spp", a->samples, "samples a pixel")->check(CLI::Range(2, 1 << 20));
+    auto* samples = command->add_option("--spp", a->samples, "samples a pixel")->check(whole_between(2, 1 << 20));
     command->add_option("--noise", a->noise, "stop at this relative noise (0.01 when neither is given)")
-        ->check(CLI::Range(1e-6, 10.0))
+        ->check(number_between(1e-6, 10.0))
         ->excludes(samples);
     command->add_flag("--diffuse-only", a->settings.diffuse_only,
                       "leave out the microfacet lobe: Lambert, if the model is plain");
-    command->add_option("--material-model", a->material_model, "plain, gltf or appendix_b instead of the shot's");
-    command->add_option("--resource", a->resource,
-                        "write this one part (out.indirect_diffuse …); --noise then means its noise");
-    command->add_option("--size", a->size, "WxH instead of the shot's size");
-    command->add_option("--frame", a->frame, "frame of an animated shot")->check(CLI::NonNegativeNumber);
+    add_material_model_option(*command, a->material_model);
+    command
+        ->add_option("--resource", a->resource,
+                     "write this one part (out.indirect_diffuse …); --noise then means its noise")
+        ->check(not_empty());
+    command->add_option("--size", a->size, "WxH instead of the shot's size")->check(picture_size());
+    command->add_option("--frame", a->frame, "frame of an animated shot")->check(whole_between(0, k_max_frames));
     command
         ->add_option("--occlusion-distance", a->settings.occlusion_distance,
                      "d_max of out.ambient_occlusion_dmax, as a share of the scene's diagonal")
         ->capture_default_str()
-        ->check(CLI::Range(1e-6, 1e6));
+        ->check(number_between(1e-6, 1e6));
     command
         ->add_option("--occlusion-falloff", a->occlusion_falloff,
                      "within d_max an occluder at d counts fully (none) or by 1 - (d/d_max)^2 (quadratic)")
+        ->check(one_of({k_occlusion_falloffs.begin(), k_occlusion_falloffs.end()}))
         ->capture_default_str();
-    command->add_option("--exposure", a->exposure, "stops, for a .png of the whole picture")->capture_default_str();
-    command->add_option("--seed", a->settings.seed, "another seed is an independent image")->capture_default_str();
-    command->add_option("--threads", a->settings.threads, "0 = all")->check(CLI::NonNegativeNumber);
+    command->add_option("--exposure", a->exposure, "stops, for a .png of the whole picture")
+        ->check(number_between(-64, 64))
+        ->capture_default_str();
+    command->add_option("--seed", a->settings.seed, "another seed is an independent image")
+        ->check(whole_between(0, 4294967295))
+        ->capture_default_str();
+    command->add_option("--threads", a->settings.threads, "0 = all")->check(whole_between(0, 4096));
     command->add_flag("--no-cache", a->no_cache, "neither take from nor add to the cache of earlier runs");
     command->add_flag("--quiet,-q", a->quiet, "print nothing when all goes well");
     command->callback([a, &chosen] { chosen = [a] { return reference(*a); }; });

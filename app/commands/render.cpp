@@ -1,12 +1,18 @@
 // bounce render: a shot through a graph, to a file.
+#include "app/broken_shaders.h"
 #include "app/capture.h"
 #include "app/commands/command.h"
+#include "app/commands/option_checks.h"
 #include "app/commands/session_options.h"
 #include "app/hosts/headless.h"
+#include "app/print.h"
 #include "app/progress.h"
 #include "app/timings.h"
 #include "core/error.h"
+#include "core/limits.h"
 #include "core/log.h"
+#include "core/memory.h"
+#include "graph/shader_log.h"
 
 #include <cstdio>
 #include <fmt/format.h>
@@ -25,40 +31,55 @@ struct RenderArguments : SessionArguments {
     bool quiet = false;
 };
 
-/// "x_%04d.png" → "x_0007.png"; empty when the name has no %0Nd.
+/// "x_%04d.png" → "x_0007.png"; empty when the name has no %0Nd. A % in a folder's name numbers nothing.
 std::string numbered(const std::string& pattern, int number) {
-    size_t percent = pattern.find('%', pattern.rfind('/') + 1); // of the file, not of its folder
+    const size_t percent = pattern.find('%', pattern.rfind('/') + 1);
     if (percent == std::string::npos) return {};
-    size_t end = pattern.find('d', percent);
-    if (end == std::string::npos) throw Error("'" + pattern + "': frames are numbered as %04d");
-    std::string digits = pattern.substr(percent + 1, end - percent - 1);
-    if (digits.find_first_not_of("0123456789") != std::string::npos || digits.size() > 2) {
-        throw Error("'" + pattern + "': frames are numbered as %04d");
+    // "%d", or "%0" and one digit, once.
+    const std::string rest = pattern.substr(percent + 1);
+    int width = 0;
+    size_t length = 0;
+    if (rest.starts_with("d")) {
+        length = 1;
+    } else if (rest.size() >= 3 && rest[0] == '0' && rest[1] >= '1' && rest[1] <= '9' && rest[2] == 'd') {
+        width = rest[1] - '0';
+        length = 3;
     }
-    int width = digits.empty() ? 0 : std::stoi(digits);
-    return pattern.substr(0, percent) + fmt::format("{:0{}}", number, width) + pattern.substr(end + 1);
+    if (length == 0 || rest.find('%', length) != std::string::npos)
+        throw Error(
+            fmt::format("invalid output name '{}': expected %d or %04d once, for the number of the frame, or no "
+                        "% at all",
+                        pattern));
+    return pattern.substr(0, percent) + fmt::format("{:0{}}", number, width) + rest.substr(length);
 }
 
-/// Throws when a shader does not compile: headless runs write nothing then.
+/// What can be told of the output before anything is computed.
+void check_output(const RenderArguments& arguments) {
+    if (arguments.output.empty()) throw Error("invalid --output '': expected a file, as x.exr or x.png");
+    const bool every_frame = !numbered(arguments.output, 0).empty();
+    for (int frame : {0, arguments.frames - 1})
+        check_output_path(every_frame ? numbered(arguments.output, frame) : arguments.output);
+    if (!arguments.timings.empty()) check_output_file(arguments.timings);
+}
+
+/// Headless runs write nothing when a shader does not compile.
 void refuse_broken(const Session& session) {
-    ErrorList errors;
-    for (const GraphProblem& problem : session.graph().problems())
-        errors.add(problem.error.text());
-    errors.throw_if_any("nothing was written");
+    throw_if_broken(session, "nothing was written");
 }
 
 int render(const RenderArguments& arguments) {
-    check_output_path(arguments.output);
-    if (arguments.frames < 1 || arguments.frames > 1000000)
-        throw Error(fmt::format("--frames {}: it is 1 … 1000000", arguments.frames));
-    numbered(arguments.output, 0); // before anything is computed
-    if (!arguments.timings.empty()) check_output_folder(arguments.timings);
+    arguments.check_names();
     SessionOptions options = arguments.options();
+    check_output(arguments);
     options.resource = arguments.resource;
+    set_shader_errors_logged(arguments.watch);
     HeadlessContext context(arguments.device);
     spdlog::debug("{}", describe(context.capabilities()));
     Session session(options);
     if (!arguments.watch) refuse_broken(session);
+    require_memory(picture_bytes(session, arguments.output, arguments.resource),
+                   fmt::format("the picture '{}' of {}x{}", arguments.output, session.size().x, session.size().y),
+                   "lower --size, or write one part with --resource");
     bool every_frame = !numbered(arguments.output, 0).empty();
     Progress progress("rendering");
     for (int frame = 0; frame < arguments.frames; ++frame) {
@@ -74,10 +95,10 @@ int render(const RenderArguments& arguments) {
     session.graph().finish_timings();
     if (!arguments.timings.empty()) write_timings(session, arguments.timings);
     if (arguments.quiet) return 0;
-    fmt::print("{}", timing_table(session));
-    fmt::print("{}\n", every_frame ? fmt::format("{} … {}", numbered(arguments.output, 0),
-                                                 numbered(arguments.output, arguments.frames - 1))
-                                   : arguments.output);
+    print("{}", timing_table(session));
+    print("{}\n", every_frame ? fmt::format("{} … {}", numbered(arguments.output, 0),
+                                            numbered(arguments.output, arguments.frames - 1))
+                              : arguments.output);
     return 0;
 }
 
@@ -89,14 +110,17 @@ void add_render_command(CLI::App& app, CommandFunction& chosen) {
     arguments->add_to(*command, true);
     command
         ->add_option("-o,--output", arguments->output,
-                     "x.exr (linear parts), x.png (display); %04d numbers every frame")
-        ->type_name("FILE")
-        ->required();
-    command->add_option("--frames", arguments->frames,
-                        "render so many frames; the last is written, or all where the name holds %04d");
-    command->add_option("--resource", arguments->resource, "write this one resource (gbuffer.normal …)");
-    command->add_option("--timings", arguments->timings, "write GPU times and bytes per pass to this .json")
+                     "x.exr (linear parts), x.png (display); %04d numbers every frame (required)")
         ->type_name("FILE");
+    command
+        ->add_option("--frames", arguments->frames,
+                     "render so many frames; the last is written, or all where the name holds %04d")
+        ->check(whole_between(1, k_max_frames));
+    command->add_option("--resource", arguments->resource, "write this one resource (gbuffer.normal …)")
+        ->check(not_empty());
+    command->add_option("--timings", arguments->timings, "write GPU times and bytes per pass to this .json")
+        ->type_name("FILE")
+        ->check(not_empty());
     command->add_flag("--watch", arguments->watch,
                       "reload graph and shaders between frames; errors keep the last good ones");
     command->add_flag("--quiet,-q", arguments->quiet, "print no table");

@@ -1,8 +1,10 @@
 #include "app/commands/session_options.h"
 
+#include "app/commands/option_checks.h"
 #include "core/error.h"
-#include "core/scanner.h"
 #include "gpu/shader_limits.h"
+#include "graph/graph_file.h"
+#include "scene/find_scene.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +14,10 @@ void SessionArguments::add_to(CLI::App& command, bool shot_required) {
     auto* shot_option =
         command.add_option("shot", shot, "a shot (name or .json), or a scene (.gltf, .glb)")->type_name("SHOT");
     if (shot_required) shot_option->required();
-    command.add_option("--graph,-g", graph, "a graph: name or .json")->type_name("GRAPH")->capture_default_str();
+    command.add_option("--graph,-g", graph, "a graph: name or .json")
+        ->type_name("GRAPH")
+        ->check(not_empty())
+        ->capture_default_str();
     add_settings_to(command);
 }
 
@@ -22,14 +27,20 @@ void SessionArguments::add_settings_to(CLI::App& command) {
     command.add_option("--enable", enabled, "switch on a pass that the graph has off, and what it needs (repeatable)")
         ->allow_extra_args(false);
     command.add_option("--disable", disabled, "switch off a pass (repeatable)")->allow_extra_args(false);
-    command.add_option("--size", size, "WxH instead of the shot's size");
-    command.add_option("--material-model", material_model, "plain, gltf or appendix_b instead of the shot's");
-    command.add_option("--device", device, "which EGL device (see --list-devices)");
+    command.add_option("--size", size, "WxH instead of the shot's size")->check(picture_size());
+    add_material_model_option(command, material_model);
+    add_device_option(command, device);
     command
         .add_option("--shader-limit", shader_limits,
                     "name=number: what shader text may hold at most, as private_bytes=262144 (repeatable)")
+        ->check(shader_limit())
         ->allow_extra_args(false);
     command.add_flag("--check-nan", check_nan, "look for values that are not finite after every pass");
+}
+
+void SessionArguments::check_names() const {
+    find_shot(shot);
+    find_graph(graph);
 }
 
 SessionOptions SessionArguments::options() const {
@@ -43,7 +54,7 @@ SessionOptions SessionArguments::options() const {
     for (const std::string& set : sets) {
         size_t equals = set.find('=');
         if (equals == std::string::npos || equals == 0) {
-            throw Error(fmt::format("--set {}: it is written pass.parameter=value", set));
+            throw Error(fmt::format("invalid --set '{}': expected pass.parameter=value", set));
         }
         out.sets.emplace_back(set.substr(0, equals), set.substr(equals + 1));
     }
@@ -51,15 +62,7 @@ SessionOptions SessionArguments::options() const {
         out.switches.emplace_back(id, true);
     for (const std::string& id : disabled)
         out.switches.emplace_back(id, false);
-    if (!size.empty()) {
-        auto read = scan_size(size, 1, 5);
-        if (!read) throw Error(fmt::format("--size {}: it is written WxH, as 1280x720", shortened(size)));
-        glm::ivec2 pixels(read->first, read->second);
-        if (pixels.x < 1 || pixels.y < 1 || pixels.x > 16384 || pixels.y > 16384) {
-            throw Error(fmt::format("--size {}: each side is 1 … 16384", size));
-        }
-        out.size = pixels;
-    }
+    if (!size.empty()) out.size = parse_size(size);
     return out;
 }
 

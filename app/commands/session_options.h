@@ -21,7 +21,9 @@ struct SessionArguments {
     void add_to(CLI::App& command, bool shot_required);
     /// All but the shot and the graph, for commands that take several.
     void add_settings_to(CLI::App& command);
-    /// Throws Error for a malformed --set, --shader-limit, --size or --material-model. Sets the shader limits.
+    /// Throws Error when there is no such shot or graph: what comes first on the command line is told first.
+    void check_names() const;
+    /// Throws Error for a malformed --set. Sets the shader limits.
     SessionOptions options() const;
 };
 

@@ -1,5 +1,7 @@
 // bounce shaders: expands every program of every graph to standalone files (for other compilers to judge).
 #include "app/commands/command.h"
+#include "app/commands/option_checks.h"
+#include "app/print.h"
 #include "core/error.h"
 #include "core/image.h"
 #include "core/paths.h"
@@ -64,7 +66,7 @@ int expand_all(const std::string& folder) {
         write_file_atomically(fs::path(folder) / ("alone." + name), program.sources().front().text);
         ++count;
     }
-    fmt::print("{} shaders in {}\n", count, folder);
+    print("{} shaders in {}\n", count, folder);
     return 0;
 }
 } // namespace
@@ -72,7 +74,10 @@ int expand_all(const std::string& folder) {
 void add_shaders_command(CLI::App& app, CommandFunction& chosen) {
     auto* command = app.add_subcommand("shaders", "expand the shaders of every graph to standalone files");
     auto folder = std::make_shared<std::string>();
-    command->add_option("--expand", *folder, "the folder to write to")->type_name("FILE")->required();
+    command->add_option("--expand", *folder, "the folder to write to")
+        ->type_name("FILE")
+        ->check(not_empty())
+        ->required();
     command->callback([folder, &chosen] { chosen = [folder] { return expand_all(*folder); }; });
 }
 

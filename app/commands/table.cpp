@@ -1,14 +1,18 @@
-// bounce table: costs in the form of a paper's tables and beside its figures, or errors against the reference.
+// bounce table: costs in the form of a paper's tables and beside its figures, errors against the reference, or limits.
 #include "app/capture.h"
 #include "app/commands/command.h"
+#include "app/commands/option_checks.h"
 #include "app/commands/session_options.h"
 #include "app/experiments/cost_table.h"
 #include "app/experiments/error_table.h"
 #include "app/experiments/table_file.h"
 #include "app/hosts/headless.h"
 #include "app/origin.h"
+#include "app/print.h"
 #include "core/error.h"
 #include "core/image.h"
+#include "core/limits.h"
+#include "gpu/shader_limits.h"
 
 #include <fmt/format.h>
 
@@ -27,8 +31,8 @@ std::string measured_errors(const TableArguments& arguments, const std::filesyst
     HeadlessContext context(arguments.device);
     std::vector<ErrorTableMeasured> measured;
     for (const ErrorTableRow& row : file.rows) {
-        fmt::print(stderr, "{}, {} …\n", row.graph, row.name);
-        measured.push_back(measure_row(row, [](const std::string& line) { fmt::print(stderr, "  {}\n", line); }));
+        print_error("{}, {} …\n", row.graph, row.name);
+        measured.push_back(measure_row(row, [](const std::string& line) { print_error("  {}\n", line); }));
     }
     const std::string about = file.about.empty() ? "" : file.about + "\n\n";
     return origin_head({origin_here()}) + "\n" + about + error_table_markdown(file, measured);
@@ -42,18 +46,35 @@ std::string measured_costs(const TableArguments& arguments) {
     HeadlessContext context(arguments.device);
     std::vector<CostTableMeasured> measured;
     for (const CostTableColumn& column : file.columns) {
-        fmt::print(stderr, "{} …\n", column.name);
+        print_error("{} …\n", column.name);
         measured.push_back(measure_column(file, column, size, arguments.warm_up, arguments.frames));
     }
     return origin_head({origin_here()}) + "\n" + cost_table_markdown(file, measured);
 }
 
-int print_table(const TableArguments& arguments) {
-    if (!arguments.output.empty()) check_output_folder(arguments.output);
+/// What nothing has to be measured for.
+std::string limits_table() {
+    std::string out = origin_head({origin_here()}) + "\nWhat is read and made at most, and what happens beyond.\n\n" +
+                      limits_markdown();
+    out += "\nWhat the text of a shader may hold; beyond, the shader has an error, and no driver sees it.\n\n"
+           "| what | at most | option |\n| --- | --- | --- |\n";
+    for (const ShaderLimitEntry& entry : shader_limit_entries())
+        out += fmt::format("| {} | {} | `--shader-limit {}=N` |\n", entry.help,
+                           grouped(uint64_t(ShaderLimits().*entry.value)), entry.name);
+    return out;
+}
+
+std::string table_text(const TableArguments& arguments) {
+    if (arguments.table == "limits") return limits_table();
     const std::filesystem::path path = find_table(arguments.table);
-    const std::string text = is_error_table(path) ? measured_errors(arguments, path) : measured_costs(arguments);
+    return is_error_table(path) ? measured_errors(arguments, path) : measured_costs(arguments);
+}
+
+int print_table(const TableArguments& arguments) {
+    if (!arguments.output.empty()) check_output_file(arguments.output);
+    const std::string text = table_text(arguments);
     if (arguments.output.empty())
-        fmt::print("{}", text);
+        print("{}", text);
     else
         write_file_atomically(arguments.output, text);
     return 0;
@@ -64,17 +85,20 @@ void add_table_command(CLI::App& app, CommandFunction& chosen) {
     auto* command =
         app.add_subcommand("table", "costs beside a paper's figures, or errors against the reference, as Markdown");
     auto arguments = std::make_shared<TableArguments>();
-    command->add_option("table", arguments->table, "a table: name or .json")->type_name("TABLE")->required();
-    command->add_option("--size", arguments->size, "WxH instead of the shots' sizes");
+    command->add_option("table", arguments->table, "a table (name or .json), or limits: what is taken at most")
+        ->type_name("TABLE")
+        ->required();
+    command->add_option("--size", arguments->size, "WxH instead of the shots' sizes")->check(picture_size());
     command->add_option("--warmup", arguments->warm_up, "frames before measuring")
-        ->check(CLI::Range(0, 1000))
+        ->check(whole_between(0, 1000))
         ->capture_default_str();
     command->add_option("--frames", arguments->frames, "frames that are measured")
-        ->check(CLI::Range(1, 10000))
+        ->check(whole_between(1, 10000))
         ->capture_default_str();
     command->add_option("-o,--output", arguments->output, "write to this .md instead of the terminal")
-        ->type_name("FILE");
-    command->add_option("--device", arguments->device, "EGL device to render on (see --list-devices)");
+        ->type_name("FILE")
+        ->check(not_empty());
+    add_device_option(*command, arguments->device);
     command->callback([arguments, &chosen] { chosen = [arguments] { return print_table(*arguments); }; });
 }
 

@@ -38,6 +38,19 @@ std::string usage_error(CLI::App& app, const CLI::ParseError& error, int argc, c
     const CLI::App& command = chosen.empty() ? app : *chosen.front();
     std::string called = chosen.empty() ? "bounce" : "bounce " + command.get_name();
     std::string help = fmt::format(" ({} --help shows what there is)", called);
+    if (dynamic_cast<const CLI::ValidationError*>(&error)) {
+        // "--size: 'x': expected …", from option_checks.h
+        const std::string text = error.what();
+        const size_t colon = text.find(": '");
+        return colon == std::string::npos ? text + help
+                                          : fmt::format("invalid {} {}", text.substr(0, colon), text.substr(colon + 2));
+    }
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
+        // "--size: 1 required TEXT missing"
+        const std::string text = error.what();
+        if (text.ends_with(" missing"))
+            return fmt::format("invalid {}: expected a value behind it{}", text.substr(0, text.find(':')), help);
+    }
     if (!dynamic_cast<const CLI::ExtrasError*>(&error)) return error.what() + help;
 
     std::string word = first_left_over(app.remaining(true), argc, argv);

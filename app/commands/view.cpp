@@ -1,9 +1,13 @@
 // bounce view: the window.
+#include "app/capture.h"
 #include "app/commands/command.h"
+#include "app/commands/option_checks.h"
 #include "app/commands/session_options.h"
 #include "app/viewer/viewer_app.h"
 #include "core/error.h"
-#include "core/scanner.h"
+#include "core/limits.h"
+#include "graph/graph_file.h"
+#include "scene/find_scene.h"
 
 #include <fmt/format.h>
 
@@ -16,19 +20,14 @@ struct ViewArguments : SessionArguments {
     std::string window;
 };
 
-glm::ivec2 window_size(const std::string& text) {
-    auto read = scan_size(text, 3, 5);
-    if (!read) throw Error(fmt::format("--window {}: it is written WxH, as 1366x768", shortened(text)));
-    return {read->first, read->second};
-}
-
 int view(const ViewArguments& arguments) {
     ViewOptions options = arguments.view;
     options.session = arguments.options();
     options.session.rebuild = Rebuild::on_change;
-    if (options.frames < 0 || options.frames > 1000000)
-        throw Error(fmt::format("--frames {}: it is 1 … 1000000", options.frames));
-    if (!arguments.window.empty()) options.window_size = window_size(arguments.window);
+    if (options.shot_given) find_shot(arguments.shot);
+    if (options.graph_given) find_graph(arguments.graph);
+    if (!options.capture_on_exit.empty()) check_output_path(options.capture_on_exit);
+    if (!arguments.window.empty()) options.window_size = parse_size(arguments.window);
     ViewerApp(std::move(options)).run();
     return 0;
 }
@@ -40,12 +39,14 @@ void add_view_command(CLI::App& app, CommandFunction& chosen) {
         app.add_subcommand("view", "open the window (the shot and graph of the last time where none is given)");
     auto arguments = std::make_shared<ViewArguments>();
     arguments->add_to(*command, false);
-    command->add_option("--window", arguments->window, "WxH of the window");
-    command->add_option("--frames", arguments->view.frames, "quit after so many rendered frames");
+    command->add_option("--window", arguments->window, "WxH of the window")->check(window_size());
+    command->add_option("--frames", arguments->view.frames, "quit after so many rendered frames")
+        ->check(whole_between(1, k_max_frames));
     command
         ->add_option("--capture-on-exit", arguments->view.capture_on_exit,
                      "write the last picture to this .png or .exr")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->check(not_empty());
     // For tests of the window.
     command->add_option("--dump-ui", arguments->view.dump_ui, "tell each drawn frame to this .json")->group("");
     command->add_option("--simulate-reset", arguments->view.simulate_reset, "lose the GPU after so many frames")

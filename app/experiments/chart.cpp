@@ -2,9 +2,13 @@
 
 #include "app/experiments/point_content.h"
 #include "core/error.h"
+#include "core/input_file.h"
+#include "core/json_text.h"
+#include "core/limits.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -32,10 +36,10 @@ static void sort_points(std::vector<ChartPoint>& points) {
 
 std::vector<ChartPoint> load_points(const fs::path& folder) {
     std::vector<ChartPoint> points;
-    if (!fs::is_directory(folder / "points")) return points;
-    for (const auto& entry : fs::directory_iterator(folder / "points")) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder / "points", ignored)) {
         if (entry.path().extension() == ".json")
-            points.push_back(point_from_json(read_file(entry.path()), entry.path().string()));
+            points.push_back(point_from_json(read_file(entry.path(), k_max_json_text), entry.path().string()));
     }
     sort_points(points);
     return points;
@@ -72,7 +76,7 @@ void run_chart(const ChartPlan& plan, const std::function<void(const std::string
             wanted.insert(key);
             if (!own) continue;
             const fs::path path = point_path(plan.folder, key);
-            if (fs::exists(path) && plan.resume) {
+            if (std::error_code ignored; fs::exists(path, ignored) && plan.resume) {
                 tell("there already");
                 continue;
             }
@@ -97,7 +101,7 @@ void merge_charts(const std::vector<fs::path>& folders, const fs::path& folder, 
                   const std::function<void(const std::string&)>& say) {
     std::vector<ChartPoint> points;
     for (const fs::path& from : folders) {
-        if (!fs::is_directory(from / "points"))
+        if (std::error_code ignored; !fs::is_directory(from / "points", ignored))
             throw Error(fmt::format("'{}' is no chart's folder: there is no points/ in it", from.string()));
         for (ChartPoint& point : load_points(from))
             points.push_back(std::move(point));

@@ -1,5 +1,6 @@
 #include "app/experiments/chart_point.h"
 
+#include "app/experiments/point_check.h"
 #include "app/experiments/transport.h"
 #include "core/error.h"
 #include "core/json_text.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 
 namespace bounce {
@@ -124,10 +126,10 @@ ChartPoint point_from_json(const std::string& text, const std::string& where) {
         SessionOptions& session = p.task.session;
         session.shot = j.at("shot");
         session.graph = j.at("graph");
-        for (const auto& [name, value] : j.at("values").items())
+        for (const auto& [name, value] : j.at("values").get_ref<const ordered_json::object_t&>())
             session.sets.emplace_back(name, value.get<std::string>());
         const ordered_json switches = j.value("switches", ordered_json::object());
-        for (const auto& [id, on] : switches.items())
+        for (const auto& [id, on] : switches.get_ref<const ordered_json::object_t&>())
             session.switches.emplace_back(id, on.get<bool>());
         session.size = glm::ivec2(j.at("size").at(0), j.at("size").at(1));
         p.task.warm_up = j.at("warm_up");
@@ -155,9 +157,10 @@ ChartPoint point_from_json(const std::string& text, const std::string& where) {
         if (j.contains("content")) p.content = content_of(j["content"]);
         p.thumbnail_png = j.at("thumbnail_png");
         p.error_png = j.at("error_png");
+        check_point(p, where);
         return p;
     } catch (const ordered_json::exception& error) {
-        throw Error(where + ": no point of a chart: " + json_problem(error));
+        throw Error(where + ": not a point of a chart: " + json_problem(error));
     }
 }
 

@@ -1,11 +1,14 @@
 #include "app/experiments/cost_table.h"
 
+#include "app/broken_shaders.h"
 #include "app/experiments/chart_point.h"
 #include "app/experiments/table_file.h"
 #include "app/session.h"
 #include "app/timings.h"
 #include "core/error.h"
+#include "core/printable.h"
 #include "core/text.h"
+#include "graph/shader_log.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,15 +117,16 @@ CostTableMeasured measure_column(const CostTableFile& file, const CostTableColum
     options.graph = column.graph;
     options.sets = column.sets;
     options.size = size;
+    set_shader_errors_logged(false);
     Session session(options);
+    throw_if_broken(session, "nothing was measured");
     for (int frame = 0; frame < warm_up + frames; ++frame) {
         if (frame > 0) session.advance();
         if (frame == warm_up) session.graph().forget_timings();
         session.render(true);
     }
     session.graph().finish_timings();
-    for (const GraphProblem& problem : session.graph().problems())
-        throw Error(problem.error.text());
+    throw_if_broken(session, "nothing was measured");
 
     CostTableMeasured measured;
     const Plan& plan = session.graph().plan();
@@ -178,13 +182,13 @@ std::string cost_table_markdown(const CostTableFile& file, const std::vector<Cos
         out += fmt::format("| {} |", unit);
         std::string rule = "| --- |";
         for (size_t c = 0; c < measured.size(); ++c) {
-            out += " " + file.columns[c].name + " |";
+            out += " " + markdown_cell(file.columns[c].name) + " |";
             rule += " ---: |";
         }
         out += "\n" + rule + "\n";
         std::vector<double> published_total(measured.size(), 0);
         for (size_t r = 0; r < rows.size(); ++r) {
-            out += "| " + rows[r].name + " |";
+            out += "| " + markdown_cell(rows[r].name) + " |";
             for (size_t c = 0; c < measured.size(); ++c) {
                 std::optional<double> value = values(measured[c])[r];
                 out += value ? fmt::format(" {:.1f}", *value) : " not run";
@@ -218,7 +222,7 @@ std::string cost_table_markdown(const CostTableFile& file, const std::vector<Cos
     if (file.error_samples > 0) {
         out += "| error |";
         for (size_t c = 0; c < measured.size(); ++c)
-            out += " " + file.columns[c].name + " |";
+            out += " " + markdown_cell(file.columns[c].name) + " |";
         out += "\n| --- |";
         for (size_t c = 0; c < measured.size(); ++c)
             out += " ---: |";

@@ -1,10 +1,13 @@
 #include "app/experiments/error_table.h"
 
+#include "app/broken_shaders.h"
 #include "app/capture.h"
 #include "app/experiments/table_file.h"
 #include "app/experiments/transport.h"
 #include "core/comparison.h"
 #include "core/error.h"
+#include "core/printable.h"
+#include "graph/shader_log.h"
 #include "reference/reference_image.h"
 #include "scene/shot.h"
 
@@ -132,14 +135,15 @@ ErrorTableMeasured measure_row(const ErrorTableRow& row, const std::function<voi
     options.switches = row.switches;
     options.resource = row.resource.find('+') == std::string::npos ? row.resource : "";
     options.size = row.size * row.multiple;
+    set_shader_errors_logged(false);
     Session session(options);
+    throw_if_broken(session, row.name);
     for (int frame = 0; frame < row.frames; ++frame) {
         if (frame > 0) session.advance();
         session.render(true);
     }
     session.graph().finish_timings();
-    for (const GraphProblem& problem : session.graph().problems())
-        throw Error(row.name + ": " + problem.error.text());
+    throw_if_broken(session, row.name);
     measured.frame_ms = session.graph().frame_ms();
     measured.bytes = session.graph().plan().total_bytes();
 
@@ -193,18 +197,18 @@ std::string error_table_markdown(const ErrorTableFile& file, const std::vector<E
         rule += " --- |";
     }
     for (const std::string& surface : surfaces) {
-        out += " " + surface + " |";
+        out += " " + markdown_cell(surface) + " |";
         rule += " ---: |";
     }
     out += " ms | MiB |\n" + rule + " ---: | ---: |\n";
     for (size_t i = 0; i < measured.size(); ++i) {
         const ErrorTableRow& row = file.rows[i];
         const ErrorTableMeasured& m = measured[i];
-        out += fmt::format("| {}, {}×{}{} | `{}` | {} |", row.shot, row.size.x, row.size.y,
-                           row.multiple > 1 ? fmt::format(" (rendered at {} times)", row.multiple) : "", row.graph,
-                           row.name);
+        out += fmt::format("| {}, {}×{}{} | `{}` | {} |", markdown_cell(row.shot), row.size.x, row.size.y,
+                           row.multiple > 1 ? fmt::format(" (rendered at {} times)", row.multiple) : "",
+                           markdown_cell(row.graph), markdown_cell(row.name));
         if (!m.skipped.empty()) {
-            out += fmt::format(" skipped: {} |\n", m.skipped);
+            out += fmt::format(" skipped: {} |\n", markdown_cell(m.skipped));
             continue;
         }
         for (const std::string& name : file.metrics)
@@ -213,7 +217,9 @@ std::string error_table_markdown(const ErrorTableFile& file, const std::vector<E
             const auto worst = std::max_element(
                 m.surfaces.begin(), m.surfaces.end(),
                 [](const SurfaceError& a, const SurfaceError& b) { return std::abs(a.bias) < std::abs(b.bias); });
-            out += worst == m.surfaces.end() ? " |" : fmt::format(" {} {} |", worst->name, percent(worst->bias));
+            out += worst == m.surfaces.end()
+                       ? " |"
+                       : fmt::format(" {} {} |", markdown_cell(worst->name), percent(worst->bias));
         }
         for (const std::string& surface : surfaces) {
             const auto found = std::find_if(m.surfaces.begin(), m.surfaces.end(),

@@ -1,4 +1,5 @@
 // Renders one point of a chart and compares it with the reference of its own transport and with the full one.
+#include "app/broken_shaders.h"
 #include "app/capture.h"
 #include "app/experiments/chart_point.h"
 #include "app/experiments/transport.h"
@@ -9,6 +10,7 @@
 #include "core/error.h"
 #include "core/heat_map.h"
 #include "core/text.h"
+#include "graph/shader_log.h"
 #include "reference/reference_image.h"
 
 #include <algorithm>
@@ -114,15 +116,16 @@ ChartPoint measure_point(const PointTask& task, const PointContent& content,
     point.content = content;
     point.key = point_key(task, content);
 
+    set_shader_errors_logged(false);
     Session session(task.session);
+    throw_if_broken(session, "nothing was measured");
     for (int frame = 0; frame < task.warm_up + task.frames; ++frame) {
         if (frame > 0) session.advance();
         if (frame == task.warm_up) session.graph().forget_timings();
         session.render(true);
     }
     session.graph().finish_timings();
-    for (const GraphProblem& problem : session.graph().problems())
-        throw Error(problem.error.text());
+    throw_if_broken(session, "nothing was measured");
     const Graph& graph = session.graph();
     const Transport& transport = graph.model().file().transport;
     for (const PlanPass& pass : graph.plan().passes) {

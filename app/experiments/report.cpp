@@ -2,9 +2,12 @@
 
 #include "app/experiments/svg_scatter.h"
 #include "app/origin.h"
+#include "core/printable.h"
 #include "core/text.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 #include <fmt/format.h>
 #include <tuple>
 
@@ -34,7 +37,17 @@ static std::vector<Origin> origins_of(const std::vector<ChartPoint>& points) {
     return origins;
 }
 
-static std::string csv_field(const std::string& text) {
+static bool is_number(const std::string& text) {
+    char* end = nullptr;
+    std::strtod(text.c_str(), &end);
+    return !text.empty() && *end == '\0';
+}
+
+/// RFC 4180. A spreadsheet takes a text that begins with one of = + - @ for a formula and runs it: an apostrophe before
+/// it keeps it a text.
+static std::string csv_field(const std::string& raw) {
+    std::string text = printable(raw);
+    if (!text.empty() && std::strchr("=+-@\t", text[0]) && !is_number(text)) text.insert(0, "'");
     if (text.find_first_of(",\"\n") == std::string::npos) return text;
     std::string out = "\"";
     for (char c : text)
@@ -132,8 +145,11 @@ static std::string cost_cell(const ChartPoint& p) {
 
 std::string chart_html(const std::vector<ChartPoint>& points, const ChartView& view) {
     std::string out =
-        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Bounce: error against "
-        "time</title>\n<style>\n"
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+        // Pictures and style of its own, and no script at all: what a name holds can only ever be shown.
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
+        "'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n"
+        "<title>Bounce: error against time</title>\n<style>\n"
         "body{font:14px/1.5 sans-serif;margin:2em auto;max-width:1400px;padding:0 1em;color:#222}\n"
         "table{border-collapse:collapse;width:100%}td,th{padding:.3em .6em;border-bottom:1px solid "
         "#ddd;text-align:right;vertical-align:top}\n"
@@ -159,7 +175,7 @@ std::string chart_html(const std::vector<ChartPoint>& points, const ChartView& v
             out += "</td>";
         }
         for (const std::string& picture : {p.thumbnail_png, p.error_png})
-            out += fmt::format("<td><img alt=\"\" src=\"data:image/png;base64,{}\"></td>", picture);
+            out += fmt::format("<td><img alt=\"\" src=\"data:image/png;base64,{}\"></td>", escape_markup(picture));
         out += "</tr>\n";
     }
     return out + "</table>\n</body></html>\n";
@@ -173,7 +189,8 @@ std::string chart_markdown(const std::vector<ChartPoint>& points) {
     }
     out += "\n" + rule + "\n";
     for (const ChartPoint& p : points) {
-        out += fmt::format("| {} | {:.3g} | {:.1f} |", p.task.label(), p.total_ms, double(p.bytes) / 1048576.0);
+        out += fmt::format("| {} | {:.3g} | {:.1f} |", markdown_cell(p.task.label()), p.total_ms,
+                           double(p.bytes) / 1048576.0);
         for (const Metric* metric : brief_metrics())
             out += " " + metric_text(*metric, p.same_transport, p.absolute()) + " |";
         out += "\n";

@@ -1,5 +1,6 @@
 #include "app/experiments/stability.h"
 
+#include "app/broken_shaders.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -9,8 +10,7 @@
 namespace bounce {
 
 static std::vector<float> luminance_of(Session& session, const std::string& resource) {
-    for (const GraphProblem& problem : session.graph().problems())
-        throw Error(problem.error.text());
+    throw_if_broken(session, "nothing was measured");
     const GpuTexture* texture = session.graph().texture(resource);
     if (!texture || texture->desc().kind != TextureKind::texture_2d)
         throw Error("'" + resource + "' is no picture of this graph" +

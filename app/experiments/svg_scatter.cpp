@@ -1,5 +1,7 @@
 #include "app/experiments/svg_scatter.h"
 
+#include "core/printable.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -10,7 +12,7 @@ namespace bounce {
 
 std::string escape_markup(const std::string& text) {
     std::string out;
-    for (char c : text) {
+    for (char c : printable(text)) {
         if (c == '&')
             out += "&amp;";
         else if (c == '<')
@@ -19,6 +21,8 @@ std::string escape_markup(const std::string& text) {
             out += "&gt;";
         else if (c == '"')
             out += "&quot;";
+        else if (c == '\'')
+            out += "&#39;";
         else
             out += c;
     }

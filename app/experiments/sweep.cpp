@@ -3,6 +3,7 @@
 #include "core/asset_files.h"
 #include "core/error.h"
 #include "core/json_text.h"
+#include "core/limits.h"
 #include "core/metric_table.h"
 #include "core/text.h"
 
@@ -13,6 +14,14 @@ namespace bounce {
 using nlohmann::ordered_json;
 
 std::vector<ParameterValues> Sweep::combinations() const {
+    double count = 1;
+    for (const auto& [name, values] : lists)
+        count *= double(values.size());
+    for (const auto& [name, values] : each)
+        count += double(values.size());
+    if (count > double(k_max_sweep_points))
+        throw Error(fmt::format("invalid sweep: its lists have {:.0f} combinations; expected at most {}", count,
+                                grouped(k_max_sweep_points)));
     std::vector<ParameterValues> out = {base};
     for (const auto& [name, values] : lists) {
         std::vector<ParameterValues> next;

@@ -100,6 +100,11 @@ json lights_json(const Session& session) {
     return lights;
 }
 
+/// How a shot in `folder` names a file: files name others by relative paths only.
+std::string name_from(const fs::path& folder, const fs::path& file) {
+    return fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(fs::absolute(folder))).string();
+}
+
 /// The name under which a file that was `name` beside the old shot is found from the new one.
 template <typename Find>
 std::string moved_name(const std::string& name, const fs::path& from, const fs::path& to, Find find) {
@@ -108,12 +113,12 @@ std::string moved_name(const std::string& name, const fs::path& from, const fs::
         if (fs::weakly_canonical(find(name, to)) == meant) return name;
     } catch (const Error&) {
     }
-    return meant.string();
+    return name_from(to, meant);
 }
 
 /// The file that the shot came from, with names that hold in `folder`; for a plain scene a new shot of it.
 json original(const Shot& shot, const fs::path& folder) {
-    if (shot.path.extension() != ".json") return {{"scene", fs::weakly_canonical(shot.path).string()}};
+    if (shot.path.extension() != ".json") return {{"scene", name_from(folder, shot.path)}};
     json root = read_json_file<json>(shot.path);
     fs::path from = shot.path.parent_path();
     auto scene = [&](json& holder) {

@@ -44,7 +44,6 @@ std::vector<LimitRow> limit_rows() {
         {"frames of a run", grouped(k_max_frames), "refused before rendering"},
         {"combinations of a sweep", grouped(k_max_sweep_points), "refused before they are made"},
         {"a shot, graph, sweep, table or point", bytes_text(k_max_json_text), refused},
-        {"a shader or include", bytes_text(k_max_shader_bytes), "an error of that shader"},
         {"an image file", bytes_text(k_max_image_bytes), refused},
         {"a .gltf or .glb", bytes_text(k_max_scene_bytes), refused},
         {"a buffer of a scene", bytes_text(k_max_buffer_bytes), refused},
@@ -64,6 +63,8 @@ std::vector<LimitRow> limit_rows() {
         {"keys of a scene's animations", grouped(k_max_animation_keys), "refused before they are read"},
         {"memory of a scene, graph or reference", "what the machine, control group or ulimit leaves",
          "refused before it is taken, from an estimate that names what to lower"},
+        {"lights", "what the driver's layers of a texture allow: a point light has six shadow maps, others one",
+         "refused before a frame is rendered"},
         {"sizes and layers of textures, buffers, work groups", "what the driver allows",
          "refused before a frame is rendered"},
     };

@@ -21,7 +21,6 @@ constexpr int k_max_frames = 1000000;
 constexpr size_t k_max_sweep_points = 100000; ///< combinations of a sweep's values
 
 // --- bytes of a file ---
-constexpr uint64_t k_max_shader_bytes = uint64_t(4) << 20;
 constexpr uint64_t k_max_image_bytes = uint64_t(1) << 30;
 constexpr uint64_t k_max_scene_bytes = uint64_t(2) << 30;  ///< a .gltf or .glb
 constexpr uint64_t k_max_buffer_bytes = uint64_t(2) << 30; ///< a buffer of a scene; the parser counts in an int

@@ -1,13 +1,14 @@
 #include "gpu/shader_source.h"
 
 #include "core/error.h"
-#include "core/image.h"
+#include "core/input_file.h"
 #include "core/parameter_line.h"
 #include "core/scanner.h"
 #include "core/source_lines.h"
 #include "core/text.h"
 #include "gpu/shader_limits.h"
 #include "gpu/shader_location.h"
+#include "gpu/shader_paths.h"
 #include "gpu/slot_note.h"
 #include "gpu/slot_reader.h"
 
@@ -106,6 +107,10 @@ class Expander {
         out_.errors.push_back({shown(file, folder_), line, shortened(trim(source_line)), message});
     }
 
+    std::string too_long() const {
+        return fmt::format("the stage has more than {} bytes (text_bytes)", limits_.text_bytes);
+    }
+
     void include(const fs::path& file, const ShaderError& from) {
         fs::path normal = file.lexically_normal();
         if (std::find(out_.files.begin(), out_.files.end(), normal) != out_.files.end()) return;
@@ -122,7 +127,10 @@ class Expander {
             return refuse(fmt::format("the stage has more than {} files (files)", limits_.files));
         std::string text;
         try {
-            text = read_file(normal);
+            check_shader_path(normal, folder_);
+            if (std::error_code unknown; int64_t(fs::file_size(normal, unknown)) > limits_.text_bytes && !unknown)
+                throw Error(too_long());
+            text = read_file(normal, uint64_t(limits_.text_bytes));
         } catch (const Error& failure) {
             out_.missing.push_back(normal);
             return refuse(failure.what());
@@ -133,8 +141,7 @@ class Expander {
         int index = int(out_.files.size());
         out_.files.push_back(normal);
         bytes_ += int64_t(text.size());
-        if (bytes_ > limits_.text_bytes)
-            return refuse(fmt::format("the stage has more than {} bytes (text_bytes)", limits_.text_bytes));
+        if (bytes_ > limits_.text_bytes) return refuse(too_long());
         std::optional<std::string> why_not;
         CodeLines lines(split_lines(text, why_not));
         if (why_not) return error(normal, 0, "", *why_not);

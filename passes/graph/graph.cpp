@@ -6,6 +6,8 @@
 #include "core/text.h"
 #include "gpu/capabilities.h"
 #include "graph/graph_overlay.h"
+#include "graph/plan_memory.h"
+#include "graph/shader_log.h"
 
 #include <algorithm>
 #include <cstring>
@@ -104,6 +106,7 @@ void Graph::set_default_rebuild(Rebuild rebuild) {
 void Graph::plan_again(const SceneFacts& facts, glm::ivec2 size) {
     ++plans_;
     Plan next = model_->plan(facts, size);
+    check_plan_fits(*model_, facts, next, planned_ ? plan_.total_bytes() : 0);
     allocations_.update(next);
     neutrals_.clear(); // they are as large as what they stand for
     plan_ = std::move(next);
@@ -199,7 +202,7 @@ void Graph::build_programs() {
             if (good) newest_files_ = program->files();
             bool told = built.text == text && texts(built.errors) == texts(program->errors());
             for (const ShaderError& error : program->errors())
-                if (!told) spdlog::error("shader: {}", error.text());
+                if (!told && shader_errors_logged()) spdlog::error("shader: {}", error.text());
             built = {text, program->errors()};
             if (good && frames_ > 0) spdlog::info("shader: {} compiled", program->stages().front().string());
         }
@@ -224,6 +227,7 @@ bool Graph::poll_files() {
             next->adopt_programs(*model_);
             try {
                 Plan plan = next->plan(planned_facts_, plan_.size);
+                check_plan_fits(*next, planned_facts_, plan, plan_.total_bytes());
                 allocations_.update(plan);
                 plan_ = std::move(plan);
                 invalidation_.new_plan(*next, plan_);

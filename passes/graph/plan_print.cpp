@@ -93,15 +93,25 @@ std::string plan_text(const GraphModel& model, const Plan& plan) {
     return out;
 }
 
+/// Inside the quotes of a label.
+static std::string quoted(const std::string& text) {
+    std::string out;
+    for (char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        out += c == '\n' ? ' ' : c;
+    }
+    return out;
+}
+
 std::string plan_graphviz(const GraphModel& model, const Plan& plan) {
     std::string out =
-        fmt::format("digraph \"{}\" {{\n  rankdir=LR;\n  node [fontname=\"sans-serif\"];\n", model.file().name);
+        fmt::format("digraph \"{}\" {{\n  rankdir=LR;\n  node [fontname=\"sans-serif\"];\n", quoted(model.file().name));
     for (const PlanPass& pass : plan.passes)
         out +=
             fmt::format("  \"pass {0}\" [label=\"{0}\", shape=box, style=filled, fillcolor=\"#ffe0a0\"];\n", pass.id);
     for (const PlanDecline& declined : plan.declined) {
         out += fmt::format("  \"pass {0}\" [label=\"{0}\\n{1}\", shape=box, style=dashed];\n", declined.id,
-                           declined.reason);
+                           quoted(declined.reason));
     }
     for (const PlanResource& resource : plan.resources) {
         out += fmt::format("  \"{}\" [label=\"{}\\n{}\\n{}\", shape=ellipse];\n", resource.name(), resource.name(),

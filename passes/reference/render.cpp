@@ -293,7 +293,7 @@ std::string ReferenceRender::metadata() const {
     add("out.radiance");
     for (const ReferencePart& p : k_reference_parts)
         add(std::string(p.name));
-    return json.dump();
+    return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 void ReferenceRender::add_checkpoint() {

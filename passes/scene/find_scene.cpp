@@ -1,5 +1,6 @@
 #include "scene/find_scene.h"
 #include "core/error.h"
+#include "core/input_file.h"
 #include "core/paths.h"
 #include "core/text.h"
 #include "scene/shot.h"
@@ -100,18 +101,18 @@ std::vector<std::string> scene_names() {
     return {names.begin(), names.end()};
 }
 
-fs::path find_scene(const std::string& name, const fs::path& base) {
-    if (trim(name).empty()) throw Error("a scene is a path or a name, but this one is empty");
+/// Files name others by relative paths only: what is read because of a file stays where a person can see it coming.
+static void refuse_reference(const std::string& name, const char* what) {
+    if (const std::string refused = refused_uri(name); !refused.empty())
+        throw Error(std::string("invalid ") + what + " '" + name + "': " + refused +
+                    "; expected a path relative to this file, or a name on the scene search path");
+}
+
+static fs::path find_along_path(const std::string& name, const fs::path& base) {
     std::vector<fs::path> folders{base.empty() ? fs::path(".") : base};
     for (const fs::path& folder : scene_search_path())
         folders.push_back(folder);
     std::vector<std::string> tried;
-    if (fs::path(name).is_absolute()) {
-        if (fs::path found = resolve(fs::path(name).root_path(), fs::path(name).relative_path().string());
-            !found.empty())
-            return found;
-        throw Error("no scene at '" + name + "'");
-    }
     for (const fs::path& folder : folders) {
         if (fs::path found = resolve(folder, name); !found.empty()) return found.lexically_normal();
         std::error_code ignored;
@@ -120,7 +121,24 @@ fs::path find_scene(const std::string& name, const fs::path& base) {
     throw Error("no scene '" + name + "'" + did_you_mean(name, scene_names()) + "; looked in " + join(tried, ", "));
 }
 
+fs::path find_scene(const std::string& name, const fs::path& base) {
+    if (trim(name).empty()) throw Error("a scene is a path or a name, but this one is empty");
+    refuse_reference(name, "scene");
+    return find_along_path(name, base);
+}
+
+fs::path find_given_scene(const std::string& name) {
+    if (trim(name).empty()) throw Error("a scene is a path or a name, but this one is empty");
+    if (!fs::path(name).is_absolute()) return find_along_path(name, ".");
+    if (fs::path found = resolve(fs::path(name).root_path(), fs::path(name).relative_path().string()); !found.empty())
+        return found;
+    if (const std::string kind = irregular_kind(name); !kind.empty() && kind != "a folder")
+        throw Error("no scene at '" + name + "': it is " + kind + "; expected a regular file");
+    throw Error("no scene at '" + name + "'");
+}
+
 fs::path find_scene_file(const std::string& name, const fs::path& base) {
+    refuse_reference(name, "file");
     std::vector<fs::path> folders{base.empty() ? fs::path(".") : base};
     for (const fs::path& folder : scene_search_path())
         folders.push_back(folder);
@@ -128,6 +146,9 @@ fs::path find_scene_file(const std::string& name, const fs::path& base) {
     for (const fs::path& folder : folders) {
         std::error_code ignored;
         if (fs::is_regular_file(folder / name, ignored)) return (folder / name).lexically_normal();
+        if (const std::string kind = irregular_kind(folder / name); !kind.empty())
+            throw Error("cannot read '" + (folder / name).lexically_normal().string() + "': it is " + kind +
+                        "; expected a regular file");
         tried.push_back(fs::weakly_canonical(folder, ignored).string());
     }
     throw Error("there is no file '" + name + "'; looked in " + join(tried, ", "));

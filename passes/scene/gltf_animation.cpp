@@ -1,4 +1,5 @@
 #include "core/error.h"
+#include "core/limits.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_parts.h"
 
@@ -8,9 +9,6 @@
 namespace bounce {
 
 namespace {
-
-// Channels may share a sampler, so the file's size does not bound what they unfold to.
-constexpr size_t k_max_keys = size_t(1) << 24;
 
 class AnimationReader {
   public:
@@ -83,7 +81,8 @@ class AnimationReader {
             fail(fmt::format("{}: {} key times want {} values, but there are {}", at, input.count,
                              input.count * per_key, output.count));
         keys_ += output.count;
-        if (keys_ > k_max_keys) fail(fmt::format("{}: the animations unfold to more than {} keys", at, k_max_keys));
+        if (keys_ > k_max_animation_keys)
+            fail(fmt::format("{}: the animations unfold to more than {} keys", at, k_max_animation_keys));
 
         for (const glm::vec4& time : read_vectors(source_, sampler.input)) {
             bool increasing = channel.times.empty() || time.x >= channel.times.back();

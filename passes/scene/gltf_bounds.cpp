@@ -1,5 +1,6 @@
 #include "scene/gltf_bounds.h"
 
+#include "core/limits.h"
 #include "scene/gltf_source.h"
 
 #include <fmt/format.h>
@@ -56,9 +57,9 @@ class BoundsCheck {
 
         if (accessor.contains("bufferView")) {
             range({whole(accessor, "bufferView"), whole(accessor, "byteOffset"), count, element, false}, where);
-        } else if (count > k_max_zero_filled) {
+        } else if (count > k_max_zero_elements) {
             errors_.add(fmt::format("{} has no bufferView and says {} elements; more than {} zeros are refused", where,
-                                    count, k_max_zero_filled));
+                                    count, k_max_zero_elements));
         }
         if (accessor.contains("sparse")) sparse(accessor["sparse"], count, element, where + ".sparse");
     }

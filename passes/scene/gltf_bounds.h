@@ -13,7 +13,4 @@ namespace bounce {
 /// `buffer_sizes`: bytes that there really are in each buffer. Wants a document that passed check_gltf_shape.
 void check_gltf_bounds(const nlohmann::json& root, const std::vector<size_t>& buffer_sizes, ErrorList& errors);
 
-/// An accessor without a view reads as zeros, and its count is bounded by nothing in the file; so by this.
-constexpr size_t k_max_zero_filled = size_t(1) << 20;
-
 } // namespace bounce

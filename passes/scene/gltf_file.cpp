@@ -1,8 +1,9 @@
 #include "scene/gltf_file.h"
 
 #include "core/error.h"
-#include "core/image.h"
+#include "core/input_file.h"
 #include "core/json_text.h"
+#include "core/limits.h"
 
 #include <cstdint>
 #include <cstring>
@@ -61,11 +62,12 @@ GltfFile read_gltf_file(const fs::path& path) {
     std::string where = path.string();
     std::error_code ignored;
     if (!fs::exists(path, ignored)) throw Error(where + ": no such file");
-    if (!fs::is_regular_file(path, ignored)) throw Error(where + ": not a file (a .gltf or .glb is wanted)");
+    if (const std::string kind = irregular_kind(path); !kind.empty())
+        throw Error(where + ": it is " + kind + "; expected a .gltf or .glb file");
 
     GltfFile file;
     file.path = path;
-    std::string bytes = read_file(path);
+    std::string bytes = read_file(path, k_max_scene_bytes);
     bool glb = bytes.size() >= 4 && read_u32(bytes, 0) == k_magic;
     if (!glb && path.extension() == ".glb") throw Error(where + ": not a .glb (it does not begin with 'glTF')");
     if (bytes.empty()) throw Error(where + ": the file is empty");

@@ -20,12 +20,14 @@ struct GltfFile {
 /// reaches outside the file, or the JSON is broken.
 GltfFile read_gltf_file(const std::filesystem::path& path);
 
-/// The bytes a URI names: a data: URI, or a file relative to `base` (percent escapes resolved). Throws Error that
-/// begins with `what` on a missing file, another scheme or damaged base64.
-std::vector<unsigned char> read_uri(const std::string& uri, const std::filesystem::path& base, const std::string& what);
+/// The bytes a URI names: a data: URI, or a regular file relative to `base` (percent escapes resolved). Throws Error
+/// that begins with `what` on a missing file, one of more than `max_bytes`, an absolute path, another scheme or damaged
+/// base64.
+std::vector<unsigned char> read_uri(const std::string& uri, const std::filesystem::path& base, const std::string& what,
+                                    uint64_t max_bytes);
 
 bool is_data_uri(const std::string& uri);
-/// The file a relative URI names: percent escapes resolved, or, where no such file is, as written.
+/// The file a relative URI names: percent escapes resolved, or, where no such file is, as written. Throws as read_uri.
 std::filesystem::path uri_path(const std::string& uri, const std::filesystem::path& base, const std::string& what);
 
 /// RFC 4648 base64, padding optional. Nothing when a character does not belong or the length is impossible.

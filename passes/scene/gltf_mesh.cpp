@@ -1,4 +1,6 @@
 #include "core/error.h"
+#include "core/limits.h"
+#include "core/memory.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_parts.h"
 #include "scene/shading_frame.h"
@@ -7,16 +9,11 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/gtc/packing.hpp>
+#include <set>
 
 namespace bounce {
 
 namespace {
-
-// A file may name the same bytes in many accessors, so its own size does not bound what it unfolds to. 4 GiB of
-// vertices.
-constexpr size_t k_max_vertices = size_t(1) << 26;
-constexpr size_t k_max_indices = size_t(1) << 28;
-constexpr size_t k_max_work = size_t(1) << 29;
 
 bool finite(const glm::vec4& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
@@ -27,6 +24,8 @@ class MeshReader {
     MeshReader(const GltfSource& source, Scene& scene) : source_(source), scene_(scene) {}
 
     void read_all() {
+        bound_vertices();
+        check_totals();
         for (size_t m = 0; m < source_.model.meshes.size(); ++m) {
             const tinygltf::Mesh& from = source_.model.meshes[m];
             Mesh mesh;
@@ -47,6 +46,45 @@ class MeshReader {
 
   private:
     using Attributes = std::map<std::string, int>;
+    static constexpr int k_any_indices = -2; ///< beside −1, which is none
+
+    /// A file may name the same bytes in many accessors: what it unfolds to is bounded by how many there are.
+    void bound_vertices() {
+        size_t bytes = 0;
+        for (const tinygltf::Buffer& buffer : source_.model.buffers)
+            bytes += buffer.data.size();
+        max_vertices_ = std::min(k_max_vertices, k_max_free_vertices + k_max_vertices_per_byte * bytes);
+    }
+
+    /// What all primitives unfold to, from their counts: before anything is made.
+    void check_totals() const {
+        std::set<std::pair<Attributes, int>> counted;
+        size_t vertices = 0, indices = 0;
+        bool flat = false;
+        for (const tinygltf::Mesh& mesh : source_.model.meshes)
+            for (const tinygltf::Primitive& from : mesh.primitives) {
+                if (from.mode >= 0 && from.mode < TINYGLTF_MODE_TRIANGLES) continue;
+                auto position = from.attributes.find("POSITION");
+                Attributes attributes(from.attributes.begin(), from.attributes.end());
+                if (position == from.attributes.end() || !counted.insert({attributes, from.indices}).second) continue;
+                const size_t own = source_.model.accessors[size_t(position->second)].count;
+                const size_t used = from.indices < 0 ? own : source_.model.accessors[size_t(from.indices)].count;
+                const bool shared = attributes.contains("NORMAL"); // flat corners are vertices of their own
+                flat = flat || !shared;
+                if (!shared || counted.insert({attributes, k_any_indices}).second) vertices += shared ? own : used;
+                indices += used;
+            }
+        if (vertices > k_max_vertices)
+            throw Error(fmt::format("{}: {} triangles unfold to {} vertices; expected at most {} in all: use a smaller "
+                                    "scene{}",
+                                    source_.where(), grouped(indices / 3), grouped(vertices), grouped(k_max_vertices),
+                                    flat ? ", or give its meshes normals (without them each corner is a vertex)" : ""));
+        // The scene's vectors grow by doubling, and a primitive's are there beside them.
+        const double bytes = 3 * double(vertices) * sizeof(Vertex) + 3 * double(indices) * sizeof(uint32_t);
+        if (bytes < double(uint64_t(1) << 28)) return; // asking costs more
+        require_memory(bytes, fmt::format("{}: a scene of {} triangles", source_.where(), grouped(indices / 3)),
+                       "use a smaller scene, or a machine with more memory");
+    }
 
     void note(size_t count, const char* which, const char* what) {
         if (count)
@@ -233,15 +271,17 @@ class MeshReader {
 
     /// Elements read in all, so that a small file cannot ask for hours of work.
     void spend(size_t elements, const std::string& at) {
-        if (elements > k_max_work - work_)
-            fail(fmt::format("{}: the file's primitives read more than {} elements in all", at, k_max_work));
+        if (elements > k_max_elements_read - work_)
+            fail(fmt::format("{}: the file's primitives read more than {} elements in all", at, k_max_elements_read));
         work_ += elements;
     }
 
     void check_room(size_t vertices, size_t indices, const std::string& at) const {
-        if (vertices > k_max_vertices - scene_.vertices.size() || indices > k_max_indices - scene_.indices.size())
-            fail(fmt::format("{}: the file unfolds to more than {} vertices or {} indices", at, k_max_vertices,
-                             k_max_indices));
+        if (scene_.vertices.size() + vertices > max_vertices_ || scene_.indices.size() + indices > k_max_indices)
+            fail(
+                fmt::format("{}: the file unfolds to more than {} vertices or {} indices; expected at most {} vertices "
+                            "for each byte of its buffers",
+                            at, grouped(max_vertices_), grouped(k_max_indices), k_max_vertices_per_byte));
     }
 
     Primitive append_indices(const std::vector<uint32_t>& indices, size_t base, const std::string& at) {
@@ -262,6 +302,7 @@ class MeshReader {
     Attributes read_attributes_;
     std::vector<Vertex> read_vertices_;
     size_t work_ = 0;
+    size_t max_vertices_ = k_max_vertices;
     int default_material_ = -1;
     size_t lines_ = 0, without_positions_ = 0, incomplete_ = 0, bad_normals_ = 0, bad_tangents_ = 0;
 };

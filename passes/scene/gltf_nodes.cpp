@@ -1,4 +1,5 @@
 #include "core/error.h"
+#include "core/limits.h"
 #include "scene/gltf_parts.h"
 
 #include <cmath>
@@ -8,9 +9,6 @@
 namespace bounce {
 
 namespace {
-
-// A mesh may be used by any number of nodes, so the file's size does not bound what is drawn.
-constexpr size_t k_max_instances = size_t(1) << 22;
 
 class NodeReader {
   public:

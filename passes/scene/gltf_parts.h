@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 
 namespace bounce {
 
@@ -20,7 +21,8 @@ class TextureTable {
     /// The index in Scene::textures of glTF texture `texture`, or -1 when it has no image that can be read.
     int use(int texture, bool srgb);
     /// Decodes the images on all cores. A picture that cannot be decoded leaves its slots without a texture, which
-    /// reads as white, and a note. Throws Error when an image's file is missing.
+    /// reads as white, and a note. Throws Error when an image's file is missing or may not be read, or when the images
+    /// say of themselves that they hold more pixels than a scene may have.
     void decode();
 
   private:
@@ -30,9 +32,9 @@ class TextureTable {
         bool nearest, srgb;
         auto operator<=>(const Key&) const = default;
     };
-    Image8 decode_image(int image) const;
+    /// The bytes of an image: of a view of the scene's buffers, or read into `file`. Empty for an image of neither.
+    std::span<const unsigned char> encoded(int image, std::vector<unsigned char>& file) const;
     std::string image_name(int image) const;
-    void check_file(int image) const;
     void drop(int texture);
 
     const GltfSource& source_;

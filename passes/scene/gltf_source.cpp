@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/json_text.h"
+#include "core/limits.h"
 #include "core/text.h"
 #include "scene/gltf_bounds.h"
 #include "scene/gltf_file.h"
@@ -35,9 +36,6 @@ constexpr std::pair<std::string_view, std::string_view> k_unread_materials[]{
     {"KHR_materials_transmission", "opaque"},
     {"KHR_materials_diffuse_transmission", "opaque"},
 };
-
-// What the parser counts in is an int.
-constexpr size_t k_max_buffer = size_t(1) << 31;
 
 std::vector<std::string> text_list(const json& root, const char* key, ErrorList& errors) {
     std::vector<std::string> out;
@@ -145,7 +143,7 @@ std::vector<std::vector<unsigned char>> load_buffers(const json& root, GltfFile&
         std::vector<unsigned char>& bytes = buffers.emplace_back();
         try {
             if (item.contains("uri")) {
-                bytes = read_uri(item["uri"].get<std::string>(), file.path.parent_path(), what);
+                bytes = read_uri(item["uri"].get<std::string>(), file.path.parent_path(), what, k_max_buffer_bytes);
             } else if (buffers.size() == 1 && file.binary) {
                 bytes.assign(file.binary->begin(), file.binary->end());
             } else {
@@ -154,7 +152,7 @@ std::vector<std::vector<unsigned char>> load_buffers(const json& root, GltfFile&
             }
             if (bytes.size() < length)
                 throw Error(fmt::format("{}.byteLength is {}, but there are {} bytes", what, length, bytes.size()));
-            if (length >= k_max_buffer)
+            if (length >= k_max_buffer_bytes)
                 throw Error(
                     fmt::format("{}.byteLength is {}; buffers of 2 GiB and more are not supported", what, length));
             bytes.resize(length);

@@ -1,5 +1,7 @@
 #include "core/error.h"
 #include "core/image.h"
+#include "core/image_budget.h"
+#include "core/limits.h"
 #include "scene/gltf_file.h"
 #include "scene/gltf_parts.h"
 
@@ -78,27 +80,16 @@ int TextureTable::use(int texture, bool srgb) {
     return it->second;
 }
 
-void TextureTable::check_file(int image) const {
+std::span<const unsigned char> TextureTable::encoded(int image, std::vector<unsigned char>& file) const {
     const tinygltf::Image& from = source_.images[size_t(image)];
-    if (from.uri.empty() || is_data_uri(from.uri)) return;
-    std::string what = source_.where() + ": " + image_name(image);
-    std::error_code ignored;
-    std::filesystem::path path = uri_path(from.uri, source_.path.parent_path(), what);
-    if (!std::filesystem::is_regular_file(path, ignored))
-        throw Error(what + ": there is no file '" + path.string() + "'");
-}
-
-Image8 TextureTable::decode_image(int image) const {
-    const tinygltf::Image& from = source_.images[size_t(image)];
-    std::string what = image_name(image);
     if (!from.uri.empty()) {
-        std::vector<unsigned char> bytes = read_uri(from.uri, source_.path.parent_path(), what);
-        return decode_image8(bytes.data(), bytes.size(), what);
+        file = read_uri(from.uri, source_.path.parent_path(), image_name(image), k_max_image_bytes);
+        return file;
     }
-    if (from.bufferView < 0) throw Error(what + " has neither a uri nor a bufferView");
+    if (from.bufferView < 0) return {};
     const tinygltf::BufferView& view = source_.model.bufferViews[size_t(from.bufferView)];
     const auto& buffer = source_.model.buffers[size_t(view.buffer)].data;
-    return decode_image8(buffer.data() + view.byteOffset, view.byteLength, what);
+    return std::span(buffer).subspan(view.byteOffset, view.byteLength);
 }
 
 void TextureTable::drop(int texture) {
@@ -114,35 +105,67 @@ void TextureTable::drop(int texture) {
 }
 
 void TextureTable::decode() {
-    ErrorList missing;
+    // An image used in both colour spaces, or with two samplers, is decoded once.
+    struct Source {
+        int image;
+        size_t first; ///< of the textures that show it
+        std::vector<unsigned char> file;
+        std::span<const unsigned char> bytes;
+        DeclaredSize size;
+        std::string problem;
+    };
+    std::vector<Source> sources;
+    std::map<int, size_t> source_of;
+    ErrorList refused;
     for (size_t i = 0; i < images_.size(); ++i) {
+        if (!source_of.try_emplace(images_[i], sources.size()).second) continue;
+        Source& source = sources.emplace_back(Source{images_[i], i, {}, {}, {}, {}});
         try {
-            check_file(images_[i]);
+            source.bytes = encoded(source.image, source.file);
+            if (source.bytes.empty()) source.problem = image_name(source.image) + " has neither a uri nor a bufferView";
         } catch (const Error& error) {
-            missing.add(error.what());
+            if (is_data_uri(source_.images[size_t(source.image)].uri))
+                source.problem = error.what(); // damaged, as a picture may be
+            else
+                refused.add(error.what());
         }
     }
-    if (missing.messages().size() == 1) throw Error(missing.messages().front());
-    missing.throw_if_any(source_.where());
+    refused.throw_if_any(source_.where());
 
-    // An image used in both colour spaces, or with two samplers, is decoded once.
-    std::vector<size_t> first;
-    std::map<int, size_t> first_of;
-    for (size_t i = 0; i < images_.size(); ++i)
-        if (first_of.try_emplace(images_[i], i).second) first.push_back(i);
-    std::vector<std::string> problems(images_.size());
-    in_parallel(first.size(), [&](size_t i) {
-        try {
-            scene_.textures[first[i]].image = decode_image(images_[first[i]]);
-        } catch (const std::exception& error) {
-            problems[first[i]] = error.what();
+    uint64_t pixels = 0;
+    for (int image : images_) {
+        Source& source = sources[source_of[image]];
+        if (source.problem.empty() && source.size.pixels() == 0) {
+            try {
+                source.size = declared_size(source.bytes.data(), source.bytes.size(), image_name(image));
+            } catch (const DeclaredSizeError& error) {
+                refused.add(error.what());
+            } catch (const Error& error) {
+                source.problem = error.what();
+            }
         }
-    });
-    for (size_t i = 0; i < images_.size(); ++i)
-        if (size_t from = first_of[images_[i]]; from != i) scene_.textures[i].image = scene_.textures[from].image;
+        pixels += source.size.pixels(); // each texture has its own copy
+    }
+    refused.throw_if_any(source_.where());
+    check_texture_budget(pixels, fmt::format("{}: {} textures", source_.where(), images_.size()));
 
-    for (size_t i : first)
-        if (!problems[i].empty()) scene_.notes.push_back("picture reads as white: " + problems[i]);
+    in_parallel(sources.size(), [&](size_t i) {
+        Source& source = sources[i];
+        if (!source.problem.empty()) return;
+        try {
+            scene_.textures[source.first].image =
+                decode_image8(source.bytes.data(), source.bytes.size(), image_name(source.image));
+        } catch (const std::exception& error) {
+            source.problem = error.what();
+        }
+        source.file = {};
+    });
+    for (size_t i = 0; i < images_.size(); ++i) {
+        const size_t first = sources[source_of[images_[i]]].first;
+        if (first != i) scene_.textures[i].image = scene_.textures[first].image;
+    }
+    for (const Source& source : sources)
+        if (!source.problem.empty()) scene_.notes.push_back("picture reads as white: " + source.problem);
     for (int i = int(images_.size()) - 1; i >= 0; --i)
         if (scene_.textures[size_t(i)].image.rgba.empty()) drop(i);
 }

@@ -1,9 +1,8 @@
 #include "core/error.h"
-#include "core/image.h"
+#include "core/input_file.h"
 #include "scene/gltf_file.h"
 
 #include <array>
-#include <cctype>
 
 namespace bounce {
 
@@ -34,18 +33,6 @@ static std::string percent_decode(std::string_view text) {
 /// For messages: a URI may be megabytes long.
 static std::string shortened(const std::string& text) {
     return text.size() > 200 ? text.substr(0, 200) + "…" : text;
-}
-
-/// "http://…" has one; "textures/a.png" has none. (A one-letter scheme would be a Windows drive; those are refused
-/// too.)
-static bool has_scheme(const std::string& uri) {
-    size_t colon = uri.find(':');
-    if (colon == std::string::npos || colon == 0) return false;
-    for (size_t i = 0; i < colon; ++i) {
-        unsigned char c = static_cast<unsigned char>(uri[i]);
-        if (!std::isalnum(c) && c != '+' && c != '-' && c != '.') return false;
-    }
-    return std::isalpha(static_cast<unsigned char>(uri[0]));
 }
 
 std::optional<std::vector<unsigned char>> decode_base64(std::string_view text) {
@@ -97,22 +84,29 @@ static std::vector<unsigned char> decode_data_uri(const std::string& uri, const 
 }
 
 fs::path uri_path(const std::string& uri, const fs::path& base, const std::string& what) {
-    if (has_scheme(uri))
-        throw Error(what + ": '" + shortened(uri) + "': only relative paths and data: URIs can be read");
+    const std::string decoded = percent_decode(uri);
+    std::string refused = refused_uri(uri);
+    if (refused.empty()) refused = refused_path(decoded);
+    if (!refused.empty())
+        throw Error(what + ": invalid uri '" + shortened(uri) + "': " + refused +
+                    "; expected a path relative to the scene's file, or a data: URI");
     std::error_code ignored;
-    fs::path decoded = base / percent_decode(uri);
     // Some exporters write file names unescaped.
-    return !fs::exists(decoded, ignored) && fs::exists(base / uri, ignored) ? base / uri : decoded;
+    return !fs::exists(base / decoded, ignored) && fs::exists(base / uri, ignored) ? base / uri : base / decoded;
 }
 
-std::vector<unsigned char> read_uri(const std::string& uri, const fs::path& base, const std::string& what) {
+std::vector<unsigned char> read_uri(const std::string& uri, const fs::path& base, const std::string& what,
+                                    uint64_t max_bytes) {
     if (is_data_uri(uri)) return decode_data_uri(uri, what);
     fs::path path = uri_path(uri, base, what);
     std::error_code ignored;
-    if (!fs::is_regular_file(path, ignored))
-        throw Error(what + ": there is no file '" + shortened(path.string()) + "'");
-    std::string bytes = read_file(path);
-    return {bytes.begin(), bytes.end()};
+    if (!fs::exists(path, ignored)) throw Error(what + ": there is no file '" + shortened(path.string()) + "'");
+    try {
+        std::string bytes = read_file(path, max_bytes);
+        return {bytes.begin(), bytes.end()};
+    } catch (const Error& error) {
+        throw Error(what + ": " + error.what());
+    }
 }
 
 } // namespace bounce

@@ -18,6 +18,12 @@ static bool is_real(const json& value) {
     return value.is_number() && std::abs(value.get<double>()) <= 1e30;
 }
 
+std::string json_shown(const json& value) {
+    const bool numbers = value.is_array() && !value.empty() && value.size() <= 4 &&
+                         std::all_of(value.begin(), value.end(), [](const json& item) { return item.is_number(); });
+    return numbers ? value.dump() : json_kind(value);
+}
+
 std::optional<glm::dvec3> json_vector(const json& value) {
     if (!value.is_array() || value.size() != 3 || !std::all_of(value.begin(), value.end(), is_real))
         return std::nullopt;
@@ -32,7 +38,7 @@ JsonObject::JsonObject(const json& value, std::string where, ErrorList& errors)
 }
 
 std::nullopt_t JsonObject::fail(const char* key, const std::string& wanted) {
-    errors_.add(fmt::format("{} must be {}, but is {}", at(key), wanted, json_kind(value_->at(key))));
+    errors_.add(fmt::format("{} must be {}, but is {}", at(key), wanted, json_shown(value_->at(key))));
     return std::nullopt;
 }
 
@@ -81,7 +87,7 @@ std::optional<glm::dvec3> JsonObject::vector(const char* key) {
     const json* value = find(key);
     if (!value) return std::nullopt;
     auto vector = json_vector(*value);
-    if (!vector) return fail(key, "an array of 3 numbers");
+    if (!vector) return fail(key, "an array of 3 numbers, none above 1e30 in size");
     return vector;
 }
 

@@ -49,7 +49,10 @@ class JsonObject {
     std::vector<std::string> known_;
 };
 
-/// An array of 3 finite numbers.
+/// As json_kind, but a short array of numbers is told by them: "[1e+31,0,0]".
+std::string json_shown(const nlohmann::json& value);
+
+/// An array of 3 numbers, none above 1e30 in size.
 std::optional<glm::dvec3> json_vector(const nlohmann::json& value);
 
 } // namespace bounce

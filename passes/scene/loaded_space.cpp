@@ -1,11 +1,13 @@
 #include "scene/loaded_space.h"
 
 #include "core/error.h"
+#include "scene/extent_pieces.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace bounce {
 
@@ -17,7 +19,9 @@ constexpr double k_far = 16;
 constexpr double k_smallest = 1e-4, k_largest = 1e6;
 /// The same for a mesh in its own coordinates, where only products of three lengths must be floats.
 constexpr double k_smallest_mesh = 1e-6, k_largest_mesh = 1e6;
-constexpr size_t k_most_points = 1 << 18;
+constexpr size_t k_most_triangles = 1 << 17;
+
+using Triangle = std::array<glm::dvec3, 3>;
 
 struct Extent {
     glm::dvec3 centre{0};
@@ -25,12 +29,65 @@ struct Extent {
     bool known = false;
 };
 
-/// Of all but the outermost points: a 64th at each end of each axis.
-Extent extent_of(std::array<std::vector<double>, 3>& axes) {
-    Extent extent;
-    if (axes[0].empty()) return extent;
+double longest_side(const std::vector<Triangle>& triangles) {
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    for (const Triangle& triangle : triangles)
+        for (const glm::dvec3& corner : triangle)
+            low = glm::min(low, corner), high = glm::max(high, corner);
+    const glm::dvec3 sides = high - low;
+    return std::max({sides.x, sides.y, sides.z});
+}
+
+/// The middle one of the corners' coordinates, along each axis.
+glm::dvec3 median(const std::vector<Triangle>& triangles) {
+    glm::dvec3 out(0);
+    std::vector<double> values;
     for (int axis = 0; axis < 3; ++axis) {
-        std::vector<double>& values = axes[size_t(axis)];
+        values.clear();
+        for (const Triangle& triangle : triangles)
+            for (const glm::dvec3& corner : triangle)
+                values.push_back(corner[axis]);
+        const auto middle = values.begin() + long(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        out[axis] = *middle;
+    }
+    return out;
+}
+
+/// Takes away the outermost third if what is left is so much shorter that what is taken must stray: it would say how
+/// large the scene is, and floats would tell nothing of the rest.
+void leave_out_strays(std::vector<Triangle>& triangles) {
+    if (triangles.empty()) return;
+    const glm::dvec3 middle = median(triangles);
+    std::vector<std::pair<double, size_t>> far(triangles.size());
+    for (size_t i = 0; i < triangles.size(); ++i) {
+        far[i] = {0, i};
+        for (const glm::dvec3& corner : triangles[i]) {
+            const glm::dvec3 off = glm::abs(corner - middle);
+            far[i].first = std::max({far[i].first, off.x, off.y, off.z});
+        }
+    }
+    const size_t kept = triangles.size() - size_t(k_few_strays * double(triangles.size()));
+    std::nth_element(far.begin(), far.begin() + long(kept) - 1, far.end());
+    const double reach = far[kept - 1].first;
+    std::vector<Triangle> near;
+    for (const auto& [distance, i] : far)
+        if (distance <= reach) near.push_back(triangles[i]);
+    const double shorter = longest_side(near);
+    if (shorter > 0 && shorter * double(k_collapse) <= longest_side(triangles)) triangles = std::move(near);
+}
+
+/// Of all but strays, and but the outermost points: a 64th at each end of each axis.
+Extent extent_of(std::vector<Triangle> triangles) {
+    Extent extent;
+    leave_out_strays(triangles);
+    if (triangles.empty()) return extent;
+    std::vector<double> values;
+    for (int axis = 0; axis < 3; ++axis) {
+        values.clear();
+        for (const Triangle& triangle : triangles)
+            for (const glm::dvec3& corner : triangle)
+                values.push_back(corner[axis]);
         const auto drop = long(values.size() / 64);
         std::nth_element(values.begin(), values.begin() + drop, values.end());
         const double low = values[size_t(drop)];
@@ -41,6 +98,41 @@ Extent extent_of(std::array<std::vector<double>, 3>& axes) {
     }
     extent.known = std::isfinite(extent.size) && std::isfinite(glm::dot(extent.centre, glm::dvec3(1)));
     return extent;
+}
+
+/// Takes every so-manieth triangle, counted through all primitives, so that many small ones are thinned out like few
+/// large ones.
+class Sampler {
+  public:
+    Sampler(const Scene& scene, size_t triangles) : scene_(scene), stride_(triangles / k_most_triangles + 1) {}
+
+    void add(const Primitive& primitive, const glm::dmat4& world) {
+        const size_t count = primitive.index_count / 3;
+        for (; next_ < count; next_ += stride_) {
+            Triangle triangle;
+            bool finite = true;
+            for (size_t corner = 0; corner < 3; ++corner) {
+                const uint32_t index = scene_.indices[primitive.first_index + 3 * next_ + corner];
+                triangle[corner] = world * glm::dvec4(scene_.vertices[index].position, 1);
+                finite = finite && std::isfinite(glm::dot(triangle[corner], glm::dvec3(1)));
+            }
+            if (finite) triangles_.push_back(triangle);
+        }
+        next_ -= count;
+    }
+    std::vector<Triangle> take() { return std::move(triangles_); }
+
+  private:
+    const Scene& scene_;
+    size_t stride_, next_ = 0;
+    std::vector<Triangle> triangles_;
+};
+
+size_t triangles_of(const Mesh& mesh) {
+    size_t count = 0;
+    for (const Primitive& primitive : mesh.primitives)
+        count += primitive.index_count / 3;
+    return count;
 }
 
 bool is_far(const Extent& extent) {
@@ -90,12 +182,14 @@ std::vector<VertexRange> vertex_ranges(const Scene& scene) {
 void recentre_meshes(Scene& scene) {
     std::vector<LoadedSpace> spaces(scene.meshes.size());
     for (const VertexRange& range : vertex_ranges(scene)) {
-        std::array<std::vector<double>, 3> axes;
-        const size_t stride = (range.last - range.first) / k_most_points + 1;
-        for (size_t v = range.first; v <= range.last; v += stride)
-            for (int axis = 0; axis < 3; ++axis)
-                axes[size_t(axis)].push_back(scene.vertices[v].position[axis]);
-        const Extent extent = extent_of(axes);
+        size_t drawn = 0;
+        for (size_t mesh : range.meshes)
+            drawn += triangles_of(scene.meshes[mesh]);
+        Sampler sampler(scene, drawn);
+        for (size_t mesh : range.meshes)
+            for (const Primitive& primitive : scene.meshes[mesh].primitives)
+                sampler.add(primitive, glm::dmat4(1));
+        const Extent extent = extent_of(sampler.take());
         LoadedSpace space;
         if (is_far(extent)) space.origin = round_point(extent);
         if (extent.known && extent.size > 0 && (extent.size < k_smallest_mesh || extent.size > k_largest_mesh))
@@ -124,27 +218,14 @@ void recentre_meshes(Scene& scene) {
 LoadedSpace suitable_space(const Scene& scene) {
     size_t drawn = 0;
     for (const Node& node : scene.nodes)
-        if (node.mesh >= 0)
-            for (const Primitive& primitive : scene.meshes[size_t(node.mesh)].primitives)
-                drawn += primitive.index_count;
-    const size_t stride = drawn / k_most_points + 1;
+        if (node.mesh >= 0) drawn += triangles_of(scene.meshes[size_t(node.mesh)]);
     const std::vector<glm::dmat4> worlds = file_matrices(scene, 0);
-    std::array<std::vector<double>, 3> axes;
-    size_t next = 0; // counted through all primitives, so that many small ones are thinned out like few large ones
-    for (size_t n = 0; n < scene.nodes.size(); ++n) {
-        if (scene.nodes[n].mesh < 0) continue;
-        for (const Primitive& primitive : scene.meshes[size_t(scene.nodes[n].mesh)].primitives) {
-            for (; next < primitive.index_count; next += stride) {
-                const Vertex& vertex = scene.vertices[scene.indices[primitive.first_index + next]];
-                const glm::dvec4 at = worlds[n] * glm::dvec4(vertex.position, 1);
-                for (int axis = 0; axis < 3; ++axis)
-                    if (std::isfinite(at[axis])) axes[size_t(axis)].push_back(at[axis]);
-            }
-            next -= primitive.index_count;
-        }
-    }
-    if (axes[0].empty() || axes[1].empty() || axes[2].empty()) return {};
-    Extent extent = extent_of(axes);
+    Sampler sampler(scene, drawn);
+    for (size_t n = 0; n < scene.nodes.size(); ++n)
+        if (scene.nodes[n].mesh >= 0)
+            for (const Primitive& primitive : scene.meshes[size_t(scene.nodes[n].mesh)].primitives)
+                sampler.add(primitive, worlds[n]);
+    Extent extent = extent_of(sampler.take());
     LoadedSpace space;
     if (!extent.known) return space;
     if (extent.size <= 0) extent.size = 1; // one point: what looks at it must differ from it
@@ -179,7 +260,10 @@ void check_placement(const Scene& scene, float time) {
                                     light.name.substr(0, 60)));
     const Bounds bounds = scene_bounds(scene, time);
     if (!bounds.empty() && !std::isfinite(bounds.diagonal()))
-        throw Error("invalid geometry: expected vertices whose distances floats can hold (below about 1e19)");
+        throw Error(
+            fmt::format("invalid geometry from ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}): expected vertices whose "
+                        "distances floats can hold (below about 1e19 of the scene's own units)",
+                        bounds.min.x, bounds.min.y, bounds.min.z, bounds.max.x, bounds.max.y, bounds.max.z));
 }
 
 } // namespace bounce

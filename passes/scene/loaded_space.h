@@ -13,8 +13,9 @@ namespace bounce {
 /// what the file holds, and the factor is a power of two.
 void recentre_meshes(Scene& scene);
 
-/// The space that suits the scene's geometry at time 0. It is told by where all but the outermost vertices lie (a 64th
-/// on each side), so that a stray one does not decide.
+/// The space that suits the scene's geometry at time 0. It is told by where all but the outermost corners of triangles
+/// lie (a 64th on each side), without those that stray (a third at most, if the rest is 256 times shorter than all), so
+/// that a stray one does not decide.
 LoadedSpace suitable_space(const Scene& scene);
 
 /// Loaded coordinates beyond this are refused: squares of them, and boxes around them, must be floats.

@@ -2,10 +2,12 @@
 
 #include "core/asset_files.h"
 #include "core/error.h"
-#include "core/image.h"
+#include "core/input_file.h"
 #include "core/json_text.h"
+#include "core/limits.h"
 #include "core/paths.h"
 #include "core/text.h"
+#include "scene/find_scene.h"
 #include "scene/gltf_parts.h"
 #include "scene/keyframes.h"
 #include "scene/loaded_space.h"
@@ -31,8 +33,8 @@ class ShotReader {
 
     Shot read() {
         object_.text("about");
-        shot_.width = object_.whole("width", 1, 16384).value_or(shot_.width);
-        shot_.height = object_.whole("height", 1, 16384).value_or(shot_.height);
+        shot_.width = object_.whole("width", 1, k_max_picture_side).value_or(shot_.width);
+        shot_.height = object_.whole("height", 1, k_max_picture_side).value_or(shot_.height);
         shot_.time = object_.number("time", -1e6, 1e6).value_or(0);
         shot_.fps = object_.number("fps", 0.001, 100000).value_or(shot_.fps);
         shot_.diffuse_only = object_.boolean("diffuse_only").value_or(false);
@@ -137,24 +139,25 @@ bool is_gltf(const fs::path& path) {
            path.extension() == ".GLB";
 }
 
-/// A file as given, a shot by name, or a scene by name.
+} // namespace
+
 fs::path find_shot(const std::string& name) {
     std::error_code ignored;
     if (fs::is_regular_file(name, ignored)) return name;
+    if (const std::string kind = irregular_kind(name); !kind.empty() && kind != "a folder")
+        throw Error("cannot read '" + name + "': it is " + kind + "; expected a regular file");
     for (const fs::path& candidate : {assets_folder() / "shots" / (name + ".json"), assets_folder() / "shots" / name})
         if (!name.empty() && fs::is_regular_file(candidate, ignored)) return candidate;
     if (fs::path(name).extension() == ".json")
         throw Error("no shot '" + name + "'" + did_you_mean(fs::path(name).stem().string(), asset_names("shots")));
-    if (is_gltf(name)) return find_scene(name, ".");
+    if (is_gltf(name)) return find_given_scene(name);
     try {
-        return find_scene(name, ".");
+        return find_given_scene(name);
     } catch (const Error& error) {
         throw Error("no shot '" + name + "' in " + (assets_folder() / "shots").string() +
                     did_you_mean(name, asset_names("shots")) + ", and " + error.what());
     }
 }
-
-} // namespace
 
 Shot load_shot(const std::string& name) {
     fs::path path = find_shot(name);

@@ -102,7 +102,7 @@ static std::optional<glm::dquat> read_rotation(JsonObject& object) {
         if (glm::length(q) > 1e-6) return glm::normalize(q);
     }
     object.errors().add(object.at("rotation") + " must be 3 angles in degrees or a quaternion x, y, z, w, but is " +
-                        json_kind(*value));
+                        json_shown(*value));
     return std::nullopt;
 }
 
@@ -113,7 +113,7 @@ static glm::dvec3 read_scale(JsonObject& object) {
     if (value->is_number() && std::isfinite(value->get<float>())) scale = glm::dvec3(value->get<double>());
     if (scale && scale->x * scale->y * scale->z != 0) return *scale;
     object.errors().add(object.at("scale") + " must be a number or an array of 3, none of them 0, but is " +
-                        json_kind(*value));
+                        json_shown(*value));
     return glm::dvec3(1);
 }
 

@@ -14,14 +14,19 @@ CASES = pathlib.Path(os.environ.get("BOUNCE_CASES") or ROOT.parent / "shared" / 
 TRUTH = 0.5 / math.pi  # a floor of ½ one metre below a lamp of 1 W/sr
 
 
-def floor_scene(at, size=1.0, place="vertices"):
+def floor_scene(at, size=1.0, place="vertices", stray=None):
     """A floor of 8 × 8 sizes with a lamp one size above it. `place`: what holds the distance, the vertices, or the node
-    (which glTF tells in doubles)."""
+    (which glTF tells in doubles). `stray`: a third triangle, at the floor's edge, reaches so far up."""
     x, y, z = at if place == "vertices" else (0, 0, 0)
     corners = [(x - 4 * size, y, z - 4 * size), (x - 4 * size, y, z + 4 * size), (x + 4 * size, y, z + 4 * size),
                (x + 4 * size, y, z - 4 * size)]
-    data = b"".join(struct.pack("<3f", *corner) for corner in corners) + struct.pack("<3f", 0, 1, 0) * 4
-    data += struct.pack("<6I", 0, 1, 2, 0, 2, 3)
+    indices = [0, 1, 2, 0, 2, 3]
+    if stray:
+        corners += [(x + 3 * size, y, z), (x + 3 * size, y, z + 0.1 * size), (x + 3 * size, y + stray, z)]
+        indices += [4, 5, 6]
+    count, end = len(corners), 24 * len(corners)
+    data = b"".join(struct.pack("<3f", *corner) for corner in corners) + struct.pack("<3f", 0, 1, 0) * count
+    data += struct.pack(f"<{len(indices)}I", *indices)
     return {
         "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
         "nodes": [{"mesh": 0, "translation": [0, 0, 0] if place == "vertices" else list(at)},
@@ -29,11 +34,12 @@ def floor_scene(at, size=1.0, place="vertices"):
                    "translation": [at[0], at[1] + size, at[2]]}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}, "indices": 2, "material": 0}]}],
         "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0}}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
-                      {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC3"},
-                      {"bufferView": 2, "componentType": 5125, "count": 6, "type": "SCALAR"}],
-        "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 48},
-                        {"buffer": 0, "byteOffset": 96, "byteLength": 24}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3"},
+                      {"bufferView": 1, "componentType": 5126, "count": count, "type": "VEC3"},
+                      {"bufferView": 2, "componentType": 5125, "count": len(indices), "type": "SCALAR"}],
+        "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": end // 2},
+                        {"buffer": 0, "byteOffset": end // 2, "byteLength": end // 2},
+                        {"buffer": 0, "byteOffset": end, "byteLength": 4 * len(indices)}],
         "extensionsUsed": ["KHR_lights_punctual"],
         "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": size * size}]}},
         "buffers": [{"byteLength": len(data),
@@ -122,10 +128,14 @@ class FarScenes(ProgramTest):
             result = self.run_program("reference", self.case(name), "--spp", "2", "--size", "8x8", "-o", "x.exr")
             self.assert_refused(result, "expected")
 
-    def test_a_stray_vertex_is_left_out_and_told(self):
+    def test_a_stray_vertex_beyond_what_rays_reach_is_refused(self):
         result = self.run_program("reference", self.case("stray/stray_1e19.gltf"), "--spp", "2", "--size", "8x8", "-o", "x.exr")
-        self.assert_good(result)
-        self.assertRegex(result.stdout + result.stderr, "left out|stray|outside")
+        self.assert_refused(result, "invalid vertex", "1e+19", "expected coordinates within 1e+18")
+
+    def test_a_stray_vertex_costs_the_rest_nothing(self):
+        """Among three triangles: one of them must not say how large the scene is."""
+        for far in (1e3, 1e9, 1e17):
+            self.check(self.write(floor_scene((0, 0, 0), stray=far), (0, 0, 0)), f"a stray vertex at {far}")
 
     def test_the_cases_far_from_the_origin(self):
         for name in ("far_from_origin/far_0.json", "far_from_origin/far_10000.json"):

@@ -7,7 +7,7 @@ import resource
 import subprocess
 import unittest
 
-from program import PROGRAM, SMALL, ProgramTest, exr_header, png_pixel
+from program import PROGRAM, SMALL, TINY_SHOT, ProgramTest, exr_header, png_pixel
 
 
 class Refusals(ProgramTest):
@@ -93,8 +93,7 @@ class Refusals(ProgramTest):
         self.assert_refused(self.render(), "gbufer", "did you mean 'gbuffer'?", "'shader' is missing")
 
     def setUp_shot(self):
-        from program import ROOT, TINY_SHOT
-        self.shot.write_text(TINY_SHOT.replace("cornell.gltf", str(ROOT / "assets/scenes/cornell.gltf")))
+        self.shot.write_text(TINY_SHOT)
 
     def test_a_broken_shader_writes_nothing(self):
         self.edit("glsl/surface/tonemap.comp", "void main() {", "void main() { oops();")

@@ -1,7 +1,7 @@
 """Shaders of the program, damaged at random, in the running program: it must live on, answer within ten seconds of its own
 processor time, and show its picture again when the file is whole again.
 
-    python3 tests/fuzz/shader_mutants.py [--headless N] [--window M] [--seed S] [--graph GRAPH]
+    python3 tests/fuzz/shader_mutants.py [--headless N] [--window M] [--seconds T] [--seed S] [--graph GRAPH]
 
 Each mutant is a function of the seed and its number alone: --first K --headless 1 runs the Kth again. The window needs Xvfb."""
 
@@ -144,7 +144,7 @@ class Host:
         for name in ("scenes", "shots"):
             (self.root / "assets" / name).symlink_to(ROOT / "assets" / name)
         self.shot = self.folder / "tiny.json"
-        self.shot.write_text(TINY_SHOT.replace("cornell.gltf", str(ROOT / "assets/scenes/cornell.gltf")))
+        self.shot.write_text(TINY_SHOT)
         self.environment = dict(os.environ, BOUNCE_ROOT=str(self.root), HOME=str(self.folder), XDG_STATE_HOME=str(self.folder / "state"),
                                 XDG_CACHE_HOME=str(self.folder / "cache"))
         self.environment.setdefault("MESA_SHADER_CACHE_DIR", str(self.folder / "shaders"))
@@ -152,8 +152,9 @@ class Host:
         self.log = self.folder / "said"
 
     def start(self, *arguments):
-        self.process = subprocess.Popen([PROGRAM, *map(str, arguments)], env=self.environment, cwd=self.folder, stdout=open(self.log, "ab"),
-                                        stderr=subprocess.STDOUT)
+        with open(self.log, "ab") as log:
+            self.process = subprocess.Popen([PROGRAM, *map(str, arguments)], env=self.environment, cwd=self.folder, stdout=log,
+                                            stderr=subprocess.STDOUT)
 
     def close(self):
         if self.process.poll() is None:
@@ -253,8 +254,9 @@ class Window(Host):
     def open(self):
         self.start("view", self.shot, "--graph", self.graph, "--size", "32x32", "--set", "shadow_maps.resolution=64", "--window", "900x600",
                    "--dump-ui", self.folder / "dump.json")
-        self.wait(lambda: (self.state() or {"drawn": 0})["drawn"] > 5 or None)
-        time.sleep(1)
+        # It draws only what changes: a few frames, and then it waits.
+        self.wait(lambda: (self.state() or {"rendered": 0})["rendered"] > 0 or None)
+        time.sleep(2)
         self.picture = self.pixels()
 
     def pixels(self):
@@ -280,12 +282,17 @@ class Window(Host):
         return False, 0
 
 
-def run(host_class, first, count, seed, graph, keep=None):
-    """Returns the failures, as texts."""
+def run(host_class, first, count, seed, graph, keep=None, seconds=None):
+    """`count` mutants, or those for which there is time in so many seconds. Returns the failures, as texts."""
+    end = time.monotonic() + seconds if seconds else None
+    done = 0
     failures, kinds, slowest = [], collections.Counter(), (0.0, None)
     host, memory = None, []
     try:
         for number in range(first, first + count):
+            if end and time.monotonic() > end:
+                break
+            done += 1
             if host is None:
                 host = host_class(graph)
                 files = host.shaders()
@@ -317,7 +324,7 @@ def run(host_class, first, count, seed, graph, keep=None):
         if host:
             host.close()
     grown = (memory[-1] - memory[len(memory) // 4]) / 2**20 if memory else 0
-    print(f"{host_class.__name__.lower()}: {count} mutants of {graph}, {len(failures)} failures; slowest {slowest[0]:.1f} s of processor time "
+    print(f"{host_class.__name__.lower()}: {done} mutants of {graph}, {len(failures)} failures; slowest {slowest[0]:.1f} s of processor time "
           f"({slowest[1]}); memory {grown:+.0f} MiB over the last three quarters", flush=True)
     print("  " + ", ".join(f"{kind} {times}" for kind, times in sorted(kinds.items())))
     for failure in failures:
@@ -329,15 +336,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--headless", type=int, default=0)
     parser.add_argument("--window", type=int, default=0)
+    parser.add_argument("--seconds", type=float, help="stop after so long, divided among the two")
     parser.add_argument("--seed", default="1")
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--graph", default="lrsm_tuned")
     parser.add_argument("--keep", help="write mutants that fail to this folder")
     a = parser.parse_args()
     failures = []
-    for host, count in ((Headless, a.headless), (Window, a.window)):
-        if count:
-            failures += run(host, a.first, count, a.seed, a.graph, a.keep)
+    hosts = [(host, count) for host, count in ((Headless, a.headless), (Window, a.window)) if count]
+    for host, count in hosts:
+        failures += run(host, a.first, count, a.seed, a.graph, a.keep, a.seconds and a.seconds / len(hosts))
     return 1 if failures else 0
 
 

@@ -11,7 +11,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "app"))
 import shader_mutants  # noqa: E402
 from program import ROOT  # noqa: E402
 
-FEW = 6 if os.environ.get("BOUNCE_SANITIZE") == "ON" else 20
+FEW = 4 if os.environ.get("BOUNCE_SANITIZE") == "ON" else 6
 
 
 class ShaderMutants(unittest.TestCase):
@@ -31,7 +31,7 @@ class ShaderMutants(unittest.TestCase):
     def test_in_the_window(self):
         if not shutil.which("Xvfb"):
             self.skipTest("Xvfb is not installed")
-        self.assertEqual(shader_mutants.run(shader_mutants.Window, 1000, FEW // 4, "1", "direct"), [])
+        self.assertEqual(shader_mutants.run(shader_mutants.Window, 1000, FEW // 3, "1", "direct"), [])
 
 
 if __name__ == "__main__":

@@ -114,9 +114,9 @@ TEST(Damaged, Buffers) {
     EXPECT_THAT(error_with("/buffers/0/uri", "gone.bin"), HasSubstr("gone.bin"));
     EXPECT_THAT(error_with("/buffers/0/uri", "data:application/octet-stream;base64,@@@@"), HasSubstr("base64"));
     EXPECT_THAT(error_with("/buffers/0/uri", "data:application/octet-stream"), HasSubstr("comma"));
-    EXPECT_THAT(error_with("/buffers/0/uri", "https://example.com/a.bin"), HasSubstr("only relative paths"));
+    EXPECT_THAT(error_with("/buffers/0/uri", "https://example.com/a.bin"), HasSubstr("it has a scheme"));
     EXPECT_THAT(error_with("/buffers/0", json{{"byteLength", 36}}), HasSubstr("no uri"));
-    EXPECT_THAT(error_with("/buffers/0/uri", "."), HasSubstr("there is no file"));
+    EXPECT_THAT(error_with("/buffers/0/uri", "."), HasSubstr("it is a folder; expected a regular file"));
 }
 
 TEST(Damaged, NodeGraphs) {

@@ -136,6 +136,28 @@ TEST_F(LoadedSpaceTest, AStrayVertexDoesNotDecide) {
     EXPECT_EQ(shot.scene.space.unit, 1);
 }
 
+/// In a scene of three triangles, too, be the stray one long or far.
+TEST_F(LoadedSpaceTest, AStrayAmongFewTrianglesDoesNotDecide) {
+    for (float far : {1e7f, 1e12f, 1e18f, 1e19f, 1e30f})
+        for (float near : {0.0f, far}) {
+            GltfBuilder b;
+            json primitive{{"attributes", {{"POSITION", b.vec3s({-1, 0,    -1, 1,    0,    -1, 1,  0,   1, //
+                                                                 -1, 0,    -1, 1,    0,    1,  -1, 0,   1, //
+                                                                 0,  near, 0,  0.1f, near, 0,  0,  far, 0})}}}};
+            b.node({{"mesh", b.mesh(primitive)}, {"translation", {3e5, 0, 0}}});
+            folder.write("scene.gltf", b.text());
+            const json camera{{"position", {3e5, 2, 2}}, {"target", {3e5, 0, 0}}};
+            if (far > 1e19f) {
+                EXPECT_THAT(error({{"camera", camera}}), HasSubstr("expected vertices whose distances")) << far;
+                continue;
+            }
+            Shot shot = load({{"camera", camera}});
+            EXPECT_EQ(shot.scene.space.unit, 1) << far;
+            EXPECT_NEAR(shot.scene.space.origin.x, 3e5, 2) << far;
+            EXPECT_EQ(corners(shot)[1] - corners(shot)[0], glm::vec3(2, 0, 0)) << far;
+        }
+}
+
 /// A scene of any size becomes one of about a metre; what its lights send through a unit of solid angle stays the same.
 TEST_F(LoadedSpaceTest, ExtremeSizesGetAUnitOfTheirOwn) {
     for (double size : {1e-18, 1e-12, 1e9, 1e14}) {
