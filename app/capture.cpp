@@ -104,13 +104,13 @@ static const GpuTexture& find_texture(const Session& session, const std::string&
     for (const PlanResource& known : session.graph().plan().resources) {
         if (!known.is_buffer()) names.push_back(known.name());
     }
-    for (const PlanDecline& declined : session.graph().plan().declined) {
-        const PassNode* node = session.graph().model().find_node(declined.id);
+    for (const PlanSkip& skipped : session.graph().plan().skipped) {
+        const PassNode* node = session.graph().model().find_node(skipped.id);
         for (const auto& program : node->programs) {
             for (const ShaderSlot& slot : program->slots()) {
                 if (slot.writes && slot.name == resource) {
-                    throw Error(fmt::format("graph '{}' does not make '{}' here: pass '{}' declined ({})",
-                                            session.options().graph, resource, declined.id, declined.reason));
+                    throw Error(fmt::format("graph '{}' does not make '{}' here: pass '{}' is skipped ({})",
+                                            session.options().graph, resource, skipped.id, skipped.reason));
                 }
             }
         }

@@ -166,8 +166,8 @@ void Session::render(bool whole) {
 
     FrameInputs inputs{gpu_scene_.get(), &facts_, c};
     graph_->execute(inputs);
-    constexpr int k_most_tries = 8; // each grows to what the one before had wanted
-    for (int i = 0; whole && i < k_most_tries && graph_->outgrown(); ++i) {
+    constexpr int k_max_tries = 8; // each grows to what the one before had wanted
+    for (int i = 0; whole && i < k_max_tries && graph_->needs_larger_buffers(); ++i) {
         graph_->prepare(facts_, size_);
         graph_->execute(inputs);
     }

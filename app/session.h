@@ -73,7 +73,7 @@ class Session {
     void resize(glm::ivec2 size);
 
     /// Plans and renders the present frame. Throws Error only when there never was a good plan. `whole`: waits for what
-    /// the passes counted, and renders again with more room as long as one had too little (the window shows a badge
+    /// the passes counted, and renders again with larger buffers as long as one was too small (the window shows a badge
     /// instead, and has the room a frame later).
     void render(bool whole = false);
     /// Polls the watched files of graph and shaders. Returns true when something was reloaded.

@@ -39,8 +39,8 @@ std::string timing_table(const Session& session) {
                        mib(session.gpu_scene().geometry_bytes() + session.gpu_scene().texture_bytes()));
     for (const CounterValue& counter : graph.counters())
         out += fmt::format("{}: {} {}{}\n", counter.pass, counter.value, counter.label, counter.bad() ? " (!)" : "");
-    for (const PlanDecline& declined : graph.plan().declined)
-        out += fmt::format("{}: not run, {}\n", declined.id, declined.reason);
+    for (const PlanSkip& skipped : graph.plan().skipped)
+        out += fmt::format("{}: skipped: {}\n", skipped.id, skipped.reason);
     return out;
 }
 
@@ -63,9 +63,9 @@ void write_timings(const Session& session, const std::filesystem::path& path) {
     json["counters"] = nlohmann::ordered_json::array();
     for (const CounterValue& c : graph.counters())
         json["counters"].push_back({{"id", c.pass}, {"label", c.label}, {"value", c.value}, {"overflow", c.overflow}});
-    json["declined"] = nlohmann::ordered_json::array();
-    for (const PlanDecline& d : graph.plan().declined)
-        json["declined"].push_back({{"id", d.id}, {"reason", d.reason}});
+    json["skipped"] = nlohmann::ordered_json::array();
+    for (const PlanSkip& d : graph.plan().skipped)
+        json["skipped"].push_back({{"id", d.id}, {"reason", d.reason}});
     json["resources"] = nlohmann::ordered_json::object();
     for (const PlanResource& r : graph.plan().resources)
         json["resources"][r.name()] = r.total_bytes();

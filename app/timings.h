@@ -8,7 +8,7 @@
 
 namespace bounce {
 
-/// A table for the terminal: pass, GPU ms (median and spread), MiB of what it made first, declined passes with reasons.
+/// A table for the terminal: pass, GPU ms (median and spread), MiB of what it made first, skipped passes with reasons.
 std::string timing_table(const Session& session);
 /// The same as JSON, with renderer and commit. Throws Error when it cannot be written.
 void write_timings(const Session& session, const std::filesystem::path& path);

@@ -64,7 +64,7 @@ int print_graph(const GraphArguments& arguments) {
 
 void add_graph_command(CLI::App& app, CommandFunction& chosen) {
     auto* command =
-        app.add_subcommand("graph", "print a graph's plan: passes in order, reads and writes, bytes, what declined");
+        app.add_subcommand("graph", "print a graph's plan: passes in order, reads and writes, bytes, what is skipped");
     auto arguments = std::make_shared<GraphArguments>();
     command->add_option("graph", arguments->name, "a graph: name or .json")->type_name("GRAPH")->required();
     command->add_option("--shot", arguments->shot, "the shot that it is planned for")

@@ -99,9 +99,9 @@ std::string point_to_json(const ChartPoint& p) {
                                {"p90_ms", pass.high_ms},
                                {"bytes", pass.bytes}});
     }
-    j["declined"] = ordered_json::array();
-    for (const auto& [id, reason] : p.declined)
-        j["declined"].push_back({{"id", id}, {"reason", reason}});
+    j["skipped"] = ordered_json::array();
+    for (const auto& [id, reason] : p.skipped)
+        j["skipped"].push_back({{"id", id}, {"reason", reason}});
     j["transport_bounces"] = p.transport_bounces;
     j["parts"] = p.parts;
     if (!p.task.parts.empty()) j["compared_parts"] = p.task.parts;
@@ -142,8 +142,8 @@ ChartPoint point_from_json(const std::string& text, const std::string& where) {
             p.passes.push_back(
                 {pass.at("id"), pass.at("median_ms"), pass.at("p10_ms"), pass.at("p90_ms"), pass.at("bytes")});
         }
-        for (const auto& d : j.at("declined"))
-            p.declined.emplace_back(d.at("id"), d.at("reason"));
+        for (const auto& d : j.at("skipped"))
+            p.skipped.emplace_back(d.at("id"), d.at("reason"));
         p.transport_bounces = j.at("transport_bounces");
         p.parts = j.value("parts", std::vector<std::string>{});
         p.task.parts = j.value("compared_parts", std::vector<std::string>{});

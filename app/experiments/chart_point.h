@@ -50,7 +50,7 @@ struct ChartPoint {
     std::string key; ///< 16 hexadecimal digits: names the task and the content
     PointContent content;
     std::vector<PassCost> passes;
-    std::vector<std::pair<std::string, std::string>> declined; ///< pass, reason
+    std::vector<std::pair<std::string, std::string>> skipped; ///< pass, reason
     double total_ms = 0;
     uint64_t bytes = 0;
     int transport_bounces = -1;

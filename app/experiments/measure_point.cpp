@@ -132,8 +132,8 @@ ChartPoint measure_point(const PointTask& task, const PointContent& content,
         PassTiming t = graph.timing(pass.id);
         point.passes.push_back({pass.id, t.median, t.low, t.high, bytes_of_pass(graph.plan(), pass.id)});
     }
-    for (const PlanDecline& d : graph.plan().declined)
-        point.declined.emplace_back(d.id, d.reason);
+    for (const PlanSkip& d : graph.plan().skipped)
+        point.skipped.emplace_back(d.id, d.reason);
     point.total_ms = graph.frame_ms();
     point.bytes = graph.plan().total_bytes();
     point.transport_bounces = transport.bounces;

@@ -138,8 +138,8 @@ static std::string cost_cell(const ChartPoint& p) {
     for (const PassCost& pass : p.passes)
         passes += fmt::format("{}: {:.3g} ({:.3g} … {:.3g})<br>", escape_markup(pass.id), pass.median_ms, pass.low_ms,
                               pass.high_ms);
-    for (const auto& [id, reason] : p.declined)
-        passes += fmt::format("{}: not run, {}<br>", escape_markup(id), escape_markup(reason));
+    for (const auto& [id, reason] : p.skipped)
+        passes += fmt::format("{}: skipped: {}<br>", escape_markup(id), escape_markup(reason));
     return fmt::format("<b>{:.3g}</b><br><small>{}</small>", p.total_ms, passes);
 }
 

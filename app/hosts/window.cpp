@@ -103,7 +103,7 @@ void note(GLFWwindow* handle) {
     native_of(handle).active = true;
 }
 
-/// ImGui hears of each event from here: its backend would lose short presses of keys in slow frames.
+/// ImGui is told of each event from here: its backend would lose short presses of keys in slow frames.
 void set_callbacks(GLFWwindow* handle) {
     glfwSetKeyCallback(handle, on_key);
     glfwSetCharCallback(handle, on_character);

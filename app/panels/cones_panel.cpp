@@ -162,7 +162,7 @@ void draw_cones_panel(PanelContext& context) {
         show_text(state.spheres.empty() ? "point at the picture" : "background", k_dim_colour);
         return;
     }
-    state.chosen = std::clamp(state.chosen, 0, std::min(at.cones, k_most_recorded_cones) - 1);
+    state.chosen = std::clamp(state.chosen, 0, std::min(at.cones, k_max_recorded_cones) - 1);
     show_text(fmt::format("pixel {}, {}", at.pixel.x, at.pixel.y), k_dim_colour);
     const float scale = 1 / context.session.constants().pre_exposure;
     show_text(fmt::format("E/π {}   occlusion {:.3f}", colour_text(glm::vec3(at.summed) * scale), 1 - at.summed.w),

@@ -134,20 +134,20 @@ uint64_t non_finite_of(const Graph& graph, const PlanPass& pass) {
 }
 
 /// Its reason takes the place of time and bytes, over both columns: rows keep their height when a pass goes.
-void draw_declined(PanelContext& context, const PassRow& row) {
+void draw_skipped(PanelContext& context, const PassRow& row) {
     draw_switch(context, row.id);
     ImGui::SameLine();
     ImGui::PushStyleColor(ImGuiCol_Text, k_dim_colour);
     ImGui::Selectable(row.id.c_str(), false, ImGuiSelectableFlags_SpanAllColumns);
     ImGui::PopStyleColor();
     note_widget("graph.pass." + row.id);
-    show_tooltip(row.id + " does not run: " + row.declined);
+    show_tooltip(row.id + " is skipped: " + row.skipped);
     ImGui::TableNextColumn();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     ImVec2 from = ImGui::GetCursorScreenPos(), window = ImGui::GetWindowPos();
     float right = window.x + ImGui::GetWindowContentRegionMax().x;
     list.PushClipRect(from, ImVec2(right, from.y + ImGui::GetTextLineHeight() + 2));
-    list.AddText(from, ImGui::GetColorU32(k_dim_colour), row.declined.c_str());
+    list.AddText(from, ImGui::GetColorU32(k_dim_colour), row.skipped.c_str());
     list.PopClipRect();
 }
 
@@ -237,7 +237,7 @@ void draw_graph_panel(PanelContext& context) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         if (row.plan < 0)
-            draw_declined(context, row);
+            draw_skipped(context, row);
         else
             draw_running(context, graph.plan().passes[size_t(row.plan)], slowest);
         ImGui::PopID();

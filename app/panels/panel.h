@@ -6,7 +6,7 @@
 namespace bounce {
 
 // Panels: one file each. Each draws into the current ImGui window.
-void draw_graph_panel(PanelContext& context);      ///< passes with GPU ms bars, MiB, on/off, reasons when declined
+void draw_graph_panel(PanelContext& context);      ///< passes with GPU ms bars, MiB, on/off, reasons when skipped
 void draw_parameters_panel(PanelContext& context); ///< every parameter; origin, reset, copy as --set
 void draw_shaders_panel(PanelContext& context);    ///< programs and their errors
 void draw_resources_panel(PanelContext& context);  ///< every texture and buffer; chooses ui.viewer

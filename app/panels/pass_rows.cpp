@@ -14,11 +14,11 @@ std::vector<PassRow> pass_rows(const GraphModel& model, const Plan& plan) {
         rows.push_back({plan.passes[i].id, int(i), ""});
     std::string before;
     for (const auto& node : model.nodes()) {
-        auto declined = std::find_if(plan.declined.begin(), plan.declined.end(),
-                                     [&](const PlanDecline& d) { return d.id == node->id(); });
-        if (declined != plan.declined.end()) {
+        auto skipped = std::find_if(plan.skipped.begin(), plan.skipped.end(),
+                                    [&](const PlanSkip& d) { return d.id == node->id(); });
+        if (skipped != plan.skipped.end()) {
             auto at = std::find_if(rows.begin(), rows.end(), [&](const PassRow& row) { return row.id == before; });
-            rows.insert(at == rows.end() ? rows.begin() : at + 1, {declined->id, -1, declined->reason});
+            rows.insert(at == rows.end() ? rows.begin() : at + 1, {skipped->id, -1, skipped->reason});
         }
         before = node->id();
     }

@@ -10,8 +10,8 @@ namespace bounce {
 
 struct PassRow {
     std::string id;
-    int plan = -1;        ///< index into Plan::passes; −1: it does not run
-    std::string declined; ///< why
+    int plan = -1;       ///< index into Plan::passes; −1: it does not run
+    std::string skipped; ///< why
 };
 /// Plan order; a pass that does not run stands behind the one that it follows in the graph file, so that rows keep
 /// their place when a pass is switched off.

@@ -10,8 +10,8 @@ std::vector<GraphProblem> shader_problems(const Graph& graph);
 int shader_error_count(const Graph& graph);
 
 enum class ProgramState { good, not_compiled, old_text, failed, disabled };
-/// Newest text, none yet (its pass declined), the last good program in place of a wrong text, nothing at all (its pass
-/// is magenta), or let go of because it hung the GPU.
+/// Newest text, none yet (its pass is skipped), the last good program in place of a wrong text, nothing at all (its
+/// pass is magenta), or let go of because it hung the GPU.
 ProgramState program_state(const Program& program);
 
 } // namespace bounce

@@ -79,12 +79,12 @@ void draw_status_bar(PanelContext& context, const Area& area, const Capabilities
     // The notice takes what is left, cut short where it must be; a click shows the log.
     gap();
     float keys = ImGui::CalcTextSize("? keys").x + ImGui::GetFontSize();
-    float room = ImGui::GetContentRegionAvail().x - keys;
-    if (room > 40 && !ui.notice.empty()) {
+    float available = ImGui::GetContentRegionAvail().x - keys;
+    if (available > 40 && !ui.notice.empty()) {
         std::string line = ui.notice.substr(0, ui.notice.find('\n'));
         if (line.size() < ui.notice.size()) line += " …";
         ImVec2 at = ImGui::GetCursorScreenPos();
-        ImGui::PushClipRect(at, {at.x + room, at.y + ImGui::GetTextLineHeightWithSpacing()}, true);
+        ImGui::PushClipRect(at, {at.x + available, at.y + ImGui::GetTextLineHeightWithSpacing()}, true);
         ImGui::TextColored(ui.notice_is_error ? k_error_colour : k_good_colour, "%s", line.c_str());
         ImGui::PopClipRect();
         help(ui.notice.c_str());

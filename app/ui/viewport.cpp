@@ -58,15 +58,15 @@ const GpuTexture* Viewport::texture_to_show(PanelContext& context) {
 
 Area Viewport::place_picture(const PanelContext& context, const Area& area, glm::vec2 texels) const {
     const WindowState& window = context.ui.window;
-    glm::vec2 room(area.size.x, area.size.y);
-    float scale = std::min(room.x / texels.x, room.y / texels.y);
-    float fill = std::abs(texels.x / texels.y * (room.y / room.x) - 1);
+    glm::vec2 available(area.size.x, area.size.y);
+    float scale = std::min(available.x / texels.x, available.y / texels.y);
+    float fill = std::abs(texels.x / texels.y * (available.y / available.x) - 1);
     // A picture made for this area fills it; others are magnified by whole numbers, so that texels look alike.
     if (fill > 0.01f && scale > 1) scale = std::floor(scale);
-    glm::vec2 size = fill <= 0.01f ? room : texels * scale;
+    glm::vec2 size = fill <= 0.01f ? available : texels * scale;
     size *= window.image_zoom;
     glm::vec2 centre = window.image_zoom > 1 ? window.image_centre : glm::vec2(0.5f);
-    glm::vec2 min = glm::vec2(area.min.x, area.min.y) + glm::round(0.5f * room - centre * size);
+    glm::vec2 min = glm::vec2(area.min.x, area.min.y) + glm::round(0.5f * available - centre * size);
     return {{min.x, min.y}, {size.x, size.y}};
 }
 

@@ -11,8 +11,8 @@ class Window;
 
 class Viewport {
   public:
-    /// Draws into the area and hears the mouse over it. Shader errors of the texture view are shown in the place of the
-    /// picture.
+    /// Draws into the area and handles the mouse over it. Shader errors of the texture view are shown in the place of
+    /// the picture.
     void draw(PanelContext& context, const Area& area, Window& window);
     /// The camera is on its way: the next frame must not wait for an event.
     bool busy() const { return busy_; }

@@ -38,7 +38,7 @@ class ViewerApp {
 
     // viewer_loop.cpp: one turn of the loop
     void wait();
-    void hear();
+    void handle_events();
     void attempt(const std::function<void()>& action);
     void run_later_actions();
     bool render_if_wanted();
@@ -55,7 +55,7 @@ class ViewerApp {
     void draw_keys_window(PanelContext& panels);
 
     // viewer_commands.cpp
-    void obey(const std::string& chord);
+    void run_command(const std::string& chord);
     void obey_time(KeyCommand command);
     void obey_camera(KeyCommand command, const std::string& chord);
     void obey_files(KeyCommand command);

@@ -9,7 +9,7 @@
 
 namespace bounce {
 
-void ViewerApp::obey(const std::string& chord) {
+void ViewerApp::run_command(const std::string& chord) {
     // While text is typed, keys are letters; but a function key is never part of a text.
     bool function_key = chord.find('F') != std::string::npos && std::isdigit(static_cast<unsigned char>(chord.back()));
     if (ImGui::GetIO().WantTextInput && !function_key) return;

@@ -59,7 +59,7 @@ void draw_tabs(const char* name, const Area& area, const std::vector<Tab>& tabs,
             ImGui::EndChild();
             ImGui::EndTabItem();
         }
-        // On the first frame ImGui shows the first tab before it hears which one is asked for.
+        // On the first frame ImGui shows the first tab before it is told which one is asked for.
         if (!first && !front.empty()) shown = front;
         ImGui::EndTabBar();
     }

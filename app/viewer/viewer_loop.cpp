@@ -1,4 +1,4 @@
-// One turn of the loop: wait, hear, render what changed.
+// One turn of the loop: wait, handle events, render what changed.
 #include "app/capture.h"
 #include "app/ui/captures.h"
 #include "app/ui/live_comparison.h"
@@ -42,7 +42,7 @@ void ViewerApp::run() {
         wait();
         if (window_->gpu_was_reset() || (rendered_ == options_.simulate_reset && !reset_simulated_))
             recover_from_reset();
-        attempt([&] { hear(); });
+        attempt([&] { handle_events(); });
         double start = seconds_now();
         bool rendered = false;
         attempt([&] { rendered = render_if_wanted(); });
@@ -94,13 +94,13 @@ void ViewerApp::attempt(const std::function<void()>& action) {
     }
 }
 
-void ViewerApp::hear() {
+void ViewerApp::handle_events() {
     if (window_->take_activity() || viewport_.busy() || ImGui::IsAnyItemActive()) gui_frames_ = 4;
     if (std::exchange(ui_.redraw_panels, false)) gui_frames_ = std::max(gui_frames_, 1);
     if (window_->take_scale_change()) attempt([&] { make_interface(); });
     PanelContext panels = context();
     for (const std::string& chord : window_->take_keys())
-        obey(chord);
+        run_command(chord);
     for (const std::string& path : window_->take_dropped_files())
         ask_for_file(panels, path);
     run_later_actions();

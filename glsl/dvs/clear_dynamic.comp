@@ -24,7 +24,7 @@ void main() {
     imageStore(voxels_albedo, voxel, vec4(0.0));
     imageStore(voxels_normal, voxel, vec4(0.0));
     if (emission_scale > 0.0) imageStore(voxels_emission, voxel, vec4(0.0));
-    if (averaging != 0) return;
+    if (averaging != averaging_average) return;
     imageStore(voxels_packed_albedo, voxel, uvec4(0u));
     imageStore(voxels_packed_normal, voxel, uvec4(0u));
     if (emission_scale > 0.0) imageStore(voxels_packed_emission, voxel, uvec4(0u));

@@ -48,8 +48,8 @@ void main() {
         list[index] = entry_of(voxel);
         imageStore(voxels_place, voxel, uvec4(index + 1u));
         imageStore(voxels_flags, voxel, uvec4(kind));
-        if (averaging == 1) sums[index] = mark - 1u;
-        if (averaging >= 2)
+        if (averaging == averaging_last_writer) sums[index] = mark - 1u;
+        if (averaging == averaging_sum || averaging == averaging_gather)
             for (uint k = 0u; k < k_sums; ++k)
                 sums[index * k_sums + k] = 0u;
         ++index;

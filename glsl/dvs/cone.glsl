@@ -144,7 +144,7 @@ Traced trace_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter, flo
     // First the few steps that look up the base volume, too: where lanes share their way, a loop of its own is what keeps the
     // others from paying for them.
     int i = 0;
-    for (; i < most_steps && t < end && cone.occlusion < 0.99; ++i) {
+    for (; i < max_steps && t < end && cone.occlusion < 0.99; ++i) {
         vec3 centre = apex + t * direction;
         float d = max(diameter * t, grid.voxel), level = sphere_level(grid, d);
         if (!is_near(grid, level)) break;
@@ -152,7 +152,7 @@ Traced trace_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter, flo
         add_sphere(cone, grid, near_value(grid, centre, direction, level), d);
         t += cone_step * d;
     }
-    for (; i < most_steps && t < end && cone.occlusion < 0.99; ++i) {
+    for (; i < max_steps && t < end && cone.occlusion < 0.99; ++i) {
         vec3 centre = apex + t * direction;
         if (outside_grid(grid, centre)) break;
         float d = max(diameter * t, grid.voxel);

@@ -7,7 +7,7 @@ uniform uint kind;
 
 void main() {
     uint capacity = uint(list.length());
-    homeless = listed > capacity ? listed - capacity : 0u;
+    overflow = listed > capacity ? listed - capacity : 0u;
     listed = min(listed, capacity);
     if (kind == k_static) static_listed = listed;
     uint count = (listed + 63u) / 64u;

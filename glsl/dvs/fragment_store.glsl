@@ -12,7 +12,8 @@ layout(r32ui) uniform uimage3D voxels_packed_emission; //! optional
 layout(std430) buffer voxels_sums { uint sums[]; };    //! optional
 
 uniform uint kind;     // of the geometry: 1 static, 2 dynamic
-uniform int operation; // 0 mark, 1 add, 2 average
+const int k_mark = 0, k_add = 1, k_average = 2; // as in passes/dvs/voxelization.cpp
+uniform int operation;
 uniform float emission_scale; // the brightest emission in the scene
 
 #include "dvs/fixed_point.glsl"
@@ -29,7 +30,7 @@ void store_mark(ivec3 voxel, uint triangle) {
 }
 
 void store_fragment(ivec3 voxel, VoxelFragment f) {
-    if (operation == 2) {
+    if (operation == k_average) {
         imageStore(voxels_place, voxel, uvec4(1u));
         imageStore(voxels_bricks, voxel >> 2, uvec4(1u));
         running_average_albedo(voxel, f.albedo);
@@ -38,7 +39,7 @@ void store_fragment(ivec3 voxel, VoxelFragment f) {
         return;
     }
     uint place = imageLoad(voxels_place, voxel).r;
-    if (place == 0u) return; // the list had no room
+    if (place == 0u) return; // the list was full
     uint base = (place - 1u) * k_sums;
     uvec3 albedo = fixed_share(f.albedo), normal = fixed_normal(f.normal);
     uvec3 emission = emission_scale > 0.0 ? fixed_emission(f.emission / emission_scale, emission_weight(f)) : uvec3(0u);

@@ -9,7 +9,7 @@ layout(std430) readonly buffer voxels_counts {
     uvec3 groups;       // of 64 invocations, for an indirect dispatch over the list
     uint listed;        // entries
     uint static_listed; // of them, those of static geometry
-    uint homeless;      // voxels for which the list has no room
+    uint overflow;      // voxels that the list cannot hold
 };
 
 #endif

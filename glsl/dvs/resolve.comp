@@ -33,12 +33,12 @@ void main() {
     ivec3 voxel = voxel_of(list[index]);
     VoxelFragment f;
     f.emission = vec3(0.0);
-    if (averaging == 0) {
+    if (averaging == averaging_average) {
         f.albedo = unpack_mean(imageLoad(voxels_packed_albedo, voxel).r);
         f.normal = 2.0 * unpack_mean(imageLoad(voxels_packed_normal, voxel).r) - 1.0;
         if (emission_scale > 0.0) f.emission = emission_scale * unpack_mean(imageLoad(voxels_packed_emission, voxel).r);
         f.leaves = 0u;
-    } else if (averaging == 1) {
+    } else if (averaging == averaging_last_writer) {
         f = fragment_of(load_triangle(sums[index], draw_starts.length() - 1), voxel);
     } else {
         uint base = index * k_sums;
@@ -52,8 +52,8 @@ void main() {
     }
     float size = length(f.normal), offset = 1.0;
     // The mean of the planes' equations is a plane; past that of a corner (normals .71 long) rays would leak.
-    if (planes && averaging != 0 && size > plane_coherence) offset = clamp(f.offset / size, -0.87, 0.87);
-    if (k_emission && emission_share == emission_share_covered && averaging >= 2 && f.emission != vec3(0.0)) {
+    if (planes && averaging != averaging_average && size > plane_coherence) offset = clamp(f.offset / size, -0.87, 0.87);
+    if (k_emission && emission_share == emission_share_covered && (averaging == averaging_sum || averaging == averaging_gather) && f.emission != vec3(0.0)) {
         // Of a small body in the voxel a quarter of its surface is seen on average, in front of a quarter of the voxel's.
         float shown = size > 0.3 ? plane_area_in_voxel(f.normal / size, clamp(f.offset / size, -0.8, 0.8)) : 6.0;
         f.emission *= float(sums[index * k_sums]) / max(max(shown, f.area), 0.01);

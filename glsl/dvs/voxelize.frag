@@ -29,7 +29,7 @@ ivec3 unproject(ivec2 plane, int depth, int axis) {
 void store(ivec3 voxel, VoxelFragment f, vec3 facing) {
     if (any(lessThan(voxel, ivec3(0))) || any(greaterThanEqual(voxel, ivec3(resolution_of_grid)))) return;
     if (taken_by_static(voxel)) return;
-    if (operation == 0) {
+    if (operation == k_mark) {
         store_mark(voxel, surface_triangle);
         return;
     }

@@ -5,13 +5,13 @@ layout(std430) readonly buffer prefix_values { uint places[]; };
 layout(std430) readonly buffer photons_stored { uint stored_words[]; };
 // 0 … 3: glDrawArraysIndirect (4 vertices, instances, 0, 0) · 4 … 6: groups of 256 photons · 7: photons stored
 layout(std430) writeonly buffer photons_commands { uint commands[]; };
-// 0: photons of the largest batch · 1: photons that had no room · 2: photons of the frame
+// 0: photons of the largest batch · 1: dropped photons · 2: photons of the frame
 layout(std430) buffer photons_counts { uint counted[]; };
 
 uniform int value_count;
 
 void main() {
-    uint arrived = places[value_count], room = uint(stored_words.length()) / 16u, kept = min(arrived, room);
+    uint arrived = places[value_count], capacity = uint(stored_words.length()) / 16u, kept = min(arrived, capacity);
     commands[0] = 4u;
     commands[1] = kept;
     commands[2] = commands[3] = 0u;

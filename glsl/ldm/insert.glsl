@@ -14,7 +14,7 @@
 #include "ldm/views.glsl"
 
 layout(std430) coherent volatile buffer ldm_lists { uint lists[]; };
-// 0: nodes asked for in this batch · 1: those of the largest batch · 2: fragments that had no room · 3: all fragments
+// 0: nodes asked for in this batch · 1: those of the largest batch · 2: dropped fragments · 3: all fragments
 layout(std430) coherent buffer ldm_counts { uint ldm_counted[]; };
 
 uint node_word(uint node, int word) {

@@ -25,11 +25,11 @@ uniform int footprint_excess = 0;     //! {discard, shrink} what becomes of phot
 
 uniform int second_axes, third_axes; // S and T: axes of the second and the third split; 0: there is none
 
-const uint k_fate_none = 0u;     // no light, or the surface faces the other way
-const uint k_fate_left = 1u;     // met nothing
-const uint k_fate_unseen = 2u;   // arrived where the camera does not see it
-const uint k_fate_too_wide = 3u; // footprint beyond the limit
-const uint k_fate_arrived = 4u;
+const uint k_outcome_none = 0u;     // no light, or the surface faces the other way
+const uint k_outcome_left = 1u;     // met nothing
+const uint k_outcome_unseen = 2u;   // arrived where the camera does not see it
+const uint k_outcome_too_wide = 3u; // footprint beyond the limit
+const uint k_outcome_arrived = 4u;
 
 // A photon on its way: its direction, how far it goes, the node that it meets.
 struct Leg {
@@ -41,13 +41,13 @@ struct Leg {
 uint photon_leg(Emitter emitter, int slot, LdmView view, out Leg leg) {
     float side = dot(emitter.normal, view.direction);
     leg = Leg(side > 0.0 ? view.direction : -view.direction, abs(side), k_no_hit, LdmCursor(0u, 0u));
-    if (emitter.pitch_texel <= 0.0 || leg.cosine < 1.0e-5) return k_fate_none;
+    if (emitter.pitch_texel <= 0.0 || leg.cosine < 1.0e-5) return k_outcome_none;
     LdmHits hits = ldm_trace(slot, view, emitter.position, emitter.normal);
     leg.t = side > 0.0 ? hits.distance.y : hits.distance.x;
-    if (leg.t >= k_no_hit) return k_fate_left;
+    if (leg.t >= k_no_hit) return k_outcome_left;
     if (side > 0.0) leg.node = hits.along;
     else leg.node = hits.against;
-    return k_fate_arrived;
+    return k_outcome_arrived;
 }
 
 // Axis `part` of `parts` that a batch's maps are thinned out to.
@@ -79,21 +79,21 @@ Emitter split_again(Emitter emitter, Leg leg, LdmView view, int batch, int parts
 uint last_leg(Emitter emitter, int slot, LdmView view, out Photon photon) {
     photon = Photon(vec3(0.0), 0.0, vec3(0.0), 0.0, vec4(0.0), vec4(0.0));
     Leg leg;
-    uint fate = photon_leg(emitter, slot, view, leg);
-    if (fate != k_fate_arrived) return fate;
+    uint outcome = photon_leg(emitter, slot, view, leg);
+    if (outcome != k_outcome_arrived) return outcome;
     vec3 d = leg.d;
     float t = leg.t;
     vec3 x = emitter.position + t * d;
 
     vec3 at = project_to_pixel(x);
     vec2 beside = guard_band * vec2(resolution);
-    if (at.z <= near_plane || any(lessThan(at.xy, -beside)) || any(greaterThanEqual(at.xy, vec2(resolution) + beside))) return k_fate_unseen;
+    if (at.z <= near_plane || any(lessThan(at.xy, -beside)) || any(greaterThanEqual(at.xy, vec2(resolution) + beside))) return k_outcome_unseen;
     ivec2 pixel = clamp(ivec2(floor(at.xy)), ivec2(0), resolution - 1);
     float depth = texelFetch(gbuffer_depth, pixel, 0).r;
-    if (depth <= 0.0) return k_fate_unseen;
+    if (depth <= 0.0) return k_outcome_unseen;
     vec3 seen = world_position(pixel, depth), n = normalize(texelFetch(gbuffer_geometric_normal, pixel, 0).xyz);
     float off = visibility == visibility_depth ? abs(near_plane / depth - at.z) : abs(dot(seen - x, n)), cosine = -dot(d, n);
-    if (off > visibility_distance * scene_diagonal || cosine <= 1.0e-3) return k_fate_unseen;
+    if (off > visibility_distance * scene_diagonal || cosine <= 1.0e-3) return k_outcome_unseen;
     if (snap) {
         float beyond = dot(seen - x, n) / dot(d, n);
         if (abs(beyond) < max(view.texel.x, view.texel.y) / max(cosine, 0.05)) x += beyond * d, t += beyond;
@@ -108,20 +108,20 @@ uint last_leg(Emitter emitter, int slot, LdmView view, out Photon photon) {
     dv *= sqrt(1.0 + spread * spread / max(dot(dv, dv), 1.0e-20));
     float limit = footprint_limit * scene_diagonal, long_u = length(du), long_v = length(dv);
     if (max(long_u, long_v) > limit) {
-        if (footprint_excess == footprint_excess_discard) return k_fate_too_wide;
+        if (footprint_excess == footprint_excess_discard) return k_outcome_too_wide;
         du *= min(1.0, limit / long_u);
         dv *= min(1.0, limit / long_v);
     }
     vec3 across = cross(du, dv);
     float area = 0.25 * 3.14159265359 * length(across);
-    if (!(area > 0.0)) return k_fate_too_wide;
+    if (!(area > 0.0)) return k_outcome_too_wide;
     bool turned = dot(across, d) > 0.0; // du × dv is to face where the photon came from
     photon.position = x;
     photon.area = area;
     photon.flux = emitter.flux * leg.cosine;
     photon.du = vec4(turned ? dv : du, 0.0);
     photon.dv = vec4(turned ? du : dv, 0.0);
-    return k_fate_arrived;
+    return k_outcome_arrived;
 }
 
 // What becomes of the photon of an emitter along the axis of `slot` and then along `path`.
@@ -133,8 +133,8 @@ uint photon_arrival(Emitter emitter, int batch, int slot, int path, out Photon p
     for (int i = 0; i < legs; ++i) {
         LdmView view = views[batch + slot * ldm.batches];
         Leg leg;
-        uint fate = photon_leg(emitter, slot, view, leg);
-        if (fate != k_fate_arrived) return fate;
+        uint outcome = photon_leg(emitter, slot, view, leg);
+        if (outcome != k_outcome_arrived) return outcome;
         int parts = i == 0 ? second_axes : third_axes;
         emitter = split_again(emitter, leg, view, batch, parts);
         slot = thinned_slot(i == 0 ? second : third, parts, maps);

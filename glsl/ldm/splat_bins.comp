@@ -10,7 +10,7 @@ layout(std430) readonly buffer photons_boxes { uvec2 boxes[]; };
 layout(std430) readonly buffer photons_chunks { uvec2 chunks[]; };
 layout(std430) buffer prefix_values { uint values[]; };
 layout(std430) writeonly buffer splat_lists { uint splat_list[]; };
-layout(std430) buffer splat_counts { uint counted[]; }; // 0: entries of the largest batch · 1: entries that had no room
+layout(std430) buffer splat_counts { uint counted[]; }; // 0: entries of the largest batch · 1: dropped entries
 
 uniform int bin_stage;   // 0: count · 1: write
 uniform int chunk_count; // that storage is made for
@@ -20,11 +20,11 @@ void main() {
     if (chunk >= chunk_count || tile >= tile_count()) return;
     int at = tile * chunk_count + chunk;
     uint first = uint(chunk) * 256u, last = min(first + 256u, commands[7]), found = 0u;
-    uint place = bin_stage == 1 ? values[at] : 0u, room = uint(splat_list.length());
+    uint place = bin_stage == 1 ? values[at] : 0u, capacity = uint(splat_list.length());
     if (first < last && meets_tile(chunks[chunk], tile)) {
         for (uint i = first; i < last; ++i) {
             if (!meets_tile(boxes[i], tile)) continue;
-            if (bin_stage == 1 && place + found < room) splat_list[place + found] = i;
+            if (bin_stage == 1 && place + found < capacity) splat_list[place + found] = i;
             ++found;
         }
     }
@@ -32,6 +32,6 @@ void main() {
     if (bin_stage == 1 && at == 0) {
         uint wanted = values[tile_count() * chunk_count];
         counted[0] = max(counted[0], wanted);
-        counted[1] += wanted > room ? wanted - room : 0u;
+        counted[1] += wanted > capacity ? wanted - capacity : 0u;
     }
 }

@@ -5,7 +5,7 @@
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer photons_emitters { Emitter emitters[]; };
-layout(std430) readonly buffer photons_fates { uint fates[]; };
+layout(std430) readonly buffer photons_outcomes { uint outcomes[]; };
 layout(std430) readonly buffer prefix_values { uint places[]; };
 layout(std430) writeonly buffer photons_stored { Photon stored[]; };
 
@@ -17,7 +17,7 @@ void main() {
     if (emitter >= emitter_count || slot >= batch_maps(batch)) return;
     int at = (path * ldm.slots + slot) * emitter_count + emitter;
     uint place = places[at];
-    if (fates[at] != k_fate_arrived || place >= uint(stored.length())) return; // no room: counted by finish_photons.comp
+    if (outcomes[at] != k_outcome_arrived || place >= uint(stored.length())) return; // dropped: counted by finish_photons.comp
     Photon photon;
     photon_arrival(emitters[emitter], batch, slot, path, photon);
     stored[place] = photon;

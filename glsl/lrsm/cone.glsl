@@ -68,7 +68,7 @@ vec4 trace_lit_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diame
     }
     float occlusion = 0.0;
     float t = max(start_offset, 1.0e-3) * grid.voxel, end = reach * scene_diagonal;
-    for (int i = 0; i < most_steps && t < end && occlusion < 0.99; ++i) {
+    for (int i = 0; i < max_steps && t < end && occlusion < 0.99; ++i) {
         vec3 centre = apex + t * direction;
         if (outside_grid(grid, centre)) break;
         float d = max(diameter * t, grid.voxel), level = sphere_level(grid, d), share = 0.0;

@@ -2,8 +2,8 @@
 #define LRSM_CONE_RECORD_GLSL
 // What is kept of the cones of one pixel. passes/lrsm/cone_record.h mirrors it; every record has 64 bytes in std430.
 
-const int k_most_recorded_cones = 128;
-const int k_most_recorded_spheres = 256; // a cone
+const int k_max_recorded_cones = 128;
+const int k_max_recorded_spheres = 256; // a cone
 
 struct InspectedPixel {
     ivec2 pixel; // of the picture

@@ -11,7 +11,7 @@ layout(std430) buffer lrsm_counts { uint counts[]; };
 
 uniform int normal_layers;
 
-shared uint tile[32]; // k_most_depth_layers · k_most_normal_layers
+shared uint tile[32]; // k_max_depth_layers · k_max_normal_layers
 
 void main() {
     if (gl_LocalInvocationIndex < 32u) tile[gl_LocalInvocationIndex] = 0u;

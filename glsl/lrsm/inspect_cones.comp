@@ -2,12 +2,12 @@
 // invocation a cone; the same functions as the gather, with the parameters of the gather (params_of in the graph file).
 #include "lrsm/cone_record.glsl"
 
-layout(local_size_x = 128) in; // k_most_recorded_cones
+layout(local_size_x = 128) in; // k_max_recorded_cones
 
 uniform sampler2D lrsm_irradiance;
 layout(std430) writeonly buffer debug_cones {
     InspectedPixel inspected;
-    RecordedCone cones[k_most_recorded_cones];
+    RecordedCone cones[k_max_recorded_cones];
     RecordedSphere spheres[];
 };
 
@@ -19,8 +19,8 @@ float seen_level = -1.0, seen_end = 0.0;
 void keep_sphere(bool at_hit, vec3 centre, float t, float diameter, float alpha, float level, float share, vec3 light) {
     ++seen;
     seen_end = t;
-    if (kept < k_most_recorded_spheres) {
-        int place = int(gl_LocalInvocationIndex) * k_most_recorded_spheres + kept++;
+    if (kept < k_max_recorded_spheres) {
+        int place = int(gl_LocalInvocationIndex) * k_max_recorded_spheres + kept++;
         spheres[place] = RecordedSphere(centre, t, diameter, alpha, share, level, light, seen_level, seen_layers, at_hit ? 1 : 0, 0, 0);
     }
     seen_layers = 0;
@@ -31,7 +31,7 @@ void keep_sphere(bool at_hit, vec3 centre, float t, float diameter, float alpha,
 #define SEE_LAYER(level) (++seen_layers, seen_level = (level))
 #include "lrsm/gather_cones.glsl"
 
-shared vec4 weighted[k_most_recorded_cones];
+shared vec4 weighted[k_max_recorded_cones];
 
 void main() {
     int i = int(gl_LocalInvocationIndex);
@@ -47,7 +47,7 @@ void main() {
         vec4 cone;
         vec4 traced = gather_cone(grid, point, i, diameter, cone);
         weighted[i] = cone.w * traced;
-        cones[i] = RecordedCone(cone.xyz, cone.w, traced.rgb, traced.a, i * k_most_recorded_spheres, kept, seen, seen_end, diameter, 0.0, 0.0, 0.0);
+        cones[i] = RecordedCone(cone.xyz, cone.w, traced.rgb, traced.a, i * k_max_recorded_spheres, kept, seen, seen_end, diameter, 0.0, 0.0, 0.0);
     }
     barrier();
     if (i != 0) return;

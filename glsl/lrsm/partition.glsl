@@ -4,8 +4,8 @@
 // ⟨n·l⟩ give (a + 1)(b + 1) layers. Neighbours in depth overlap by δ; the scene's near and far ends do not fade.
 // Depths are metres along the view.
 
-const int k_most_depth_layers = 8;
-const int k_most_normal_layers = 4;
+const int k_max_depth_layers = 8;
+const int k_max_normal_layers = 4;
 
 // 64 bytes in std430; passes/lrsm/partition.h mirrors it.
 struct Partition {
@@ -17,7 +17,7 @@ struct Partition {
 
 // Layers are numbered alike for all lights: place in the table of depth layer d and normal layer n of a view.
 int table_index(int view, int d, int n) {
-    return (view * k_most_depth_layers + d) * k_most_normal_layers + n;
+    return (view * k_max_depth_layers + d) * k_max_normal_layers + n;
 }
 
 // The range [zMin, zMax] of depth layer i, overlap included.

@@ -82,7 +82,7 @@ vec4 sample_sums(int view_index, vec3 centre, float radius, vec3 to_viewer, out 
         float from = (at.z - depth_window * radius - range.x) / extent, to = (at.z + depth_window * radius - range.x) / extent;
         // Where two layers overlap both hold the texels: each counts by its decay at the texels' depth.
         float decay = layers_by_sphere ? 1.0 : layer_decay(p, d, at.z);
-        for (int n = 0; n < k_most_normal_layers; ++n) {
+        for (int n = 0; n < k_max_normal_layers; ++n) {
             int place = table[table_index(view_index, d, n)];
             if (place < 0) continue;
             vec4 normal = textureLod(lrsm_normal, vec3(at.uv, float(place)), at.level);

@@ -16,18 +16,18 @@ uniform int pool_layers;
 uniform bool skip_empty;
 
 void main() {
-    int stored = 0, homeless = 0;
+    int stored = 0, overflow = 0;
     for (int i = 0; i < table.length(); ++i) {
         int place = -1;
-        int d = i / k_most_normal_layers % k_most_depth_layers, n = i % k_most_normal_layers;
+        int d = i / k_max_normal_layers % k_max_depth_layers, n = i % k_max_normal_layers;
         if (d < depth_layers && n < normal_layers && (!skip_empty || counts[i] > 0u)) {
             if (stored < pool_layers) place = stored++;
-            else ++homeless;
+            else ++overflow;
         }
         table[i] = place;
     }
     summary[0] = stored;
-    summary[1] = homeless;
+    summary[1] = overflow;
     for (int view = 0; view < partitions.length(); ++view)
         summary[2 + view] = partitions[view].depth_layers;
 }

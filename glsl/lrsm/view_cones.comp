@@ -11,7 +11,7 @@ uniform sampler2D out_display;
 uniform sampler2D gbuffer_depth;
 layout(std430) readonly buffer debug_cones {
     InspectedPixel inspected;
-    RecordedCone cones[k_most_recorded_cones];
+    RecordedCone cones[k_max_recorded_cones];
     RecordedSphere spheres[];
 };
 layout(FORMAT_debug_cones_view) writeonly uniform image2D debug_cones_view;
@@ -21,9 +21,9 @@ uniform int only_cone = -1;      //! [-1, 127] draws this one alone; -1: all
 uniform float line_width = 1.2;  //! [0.5, 8] (pixels) of circles and axes
 uniform float picture = 0.5;     //! [0, 1] brightness of the picture behind
 
-const int k_words = k_most_recorded_spheres / 32; // a cone
-shared uint reaching[k_most_recorded_cones * k_words];
-shared ViewSegment axes[k_most_recorded_cones];
+const int k_words = k_max_recorded_spheres / 32; // a cone
+shared uint reaching[k_max_recorded_cones * k_words];
+shared ViewSegment axes[k_max_recorded_cones];
 
 // Centre in pixels, radius in pixels, distance along the view; radius 0: not in view.
 vec4 circle_of(RecordedSphere sphere) {
@@ -50,7 +50,7 @@ void find_axis(int i) {
 
 void main() {
     int lane = int(gl_LocalInvocationIndex);
-    int cone_total = clamp(inspected.cones, 0, k_most_recorded_cones);
+    int cone_total = clamp(inspected.cones, 0, k_max_recorded_cones);
     for (int word = lane; word < cone_total * k_words; word += 256)
         reaching[word] = 0u;
     barrier();
@@ -80,7 +80,7 @@ void main() {
     }
     for (int word = 0; word < cone_total * k_words; ++word) {
         for (uint bits = reaching[word]; bits != 0u; bits &= bits - 1u) {
-            RecordedSphere sphere = spheres[word / k_words * k_most_recorded_spheres + word % k_words * 32 + findLSB(bits)];
+            RecordedSphere sphere = spheres[word / k_words * k_max_recorded_spheres + word % k_words * 32 + findLSB(bits)];
             vec4 circle = circle_of(sphere);
             float from_rim = distance(at, circle.xy) - circle.z;
             float rim = clamp(line_width - abs(from_rim), 0.0, 1.0), inside = from_rim < 0.0 ? 0.12 * sphere.share : 0.0;

@@ -25,7 +25,7 @@ float cone_occlusion(VoxelGrid grid, vec3 apex, vec3 direction, float diameter) 
         return hit < 0.0 ? 0.0 : 1.0 / (1.0 + ambient_decay * 0.5 * diameter * hit / grid.voxel);
     }
     float t = max(start_offset, 1.0e-3) * grid.voxel, occlusion = 0.0, blocked = 0.0;
-    for (int i = 0; i < most_steps && t < end && blocked < 0.99; ++i) {
+    for (int i = 0; i < max_steps && t < end && blocked < 0.99; ++i) {
         vec3 centre = apex + t * direction;
         if (outside_grid(grid, centre)) break;
         float d = max(diameter * t, grid.voxel);

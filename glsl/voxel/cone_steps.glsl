@@ -12,7 +12,7 @@ uniform float cone_step = 0.5;         //! [0.05, 2] the step from sphere to sph
 uniform float start_offset = 1.0;      //! [0, 16] (voxels) how far along the cone the first sphere lies
 uniform float normal_offset = 1.0;     //! [0, 16] (voxels) how far the apex is moved along the surface's normal
 uniform float opacity_exponent = 1.0;  //! [0.1, 2] α' = 1 − (1 − α)^e for each sphere: 1 as published
-uniform int most_steps = 128;          //! [1, 512] spheres a cone, at most
+uniform int max_steps = 128;          //! [1, 512] spheres a cone, at most
 uniform float reach = 1.0;             //! [0.01, 2] how far cones go, as a share of the scene's diagonal
 
 VoxelGrid voxel_grid(int grid_resolution, int leaves, int mips, int skip_mips) {
@@ -51,7 +51,7 @@ float find_hit_from(VoxelGrid grid, vec3 apex, vec3 direction, float diameter, f
     float t = start, end = reach * scene_diagonal;
     float open = 1.0;
     int coarsest = grid.skip_mips, skip = coarsest;
-    for (int i = 0; i < most_steps && t < end; ++i) {
+    for (int i = 0; i < max_steps && t < end; ++i) {
         vec3 centre = apex + t * direction;
         if (outside_grid(grid, centre)) return -1.0;
         float d = max(diameter * t, grid.voxel), level = sphere_level(grid, d);

@@ -29,7 +29,7 @@ void main() {
         vec3 apex = cone_start(grid, position, face).apex;
         float diameter = 2.0 * tan(radians(0.5 * aperture));
         float t = max(start_offset, 1.0e-3) * grid.voxel;
-        for (int i = 0; i < most_steps && open > 0.01; ++i) {
+        for (int i = 0; i < max_steps && open > 0.01; ++i) {
             float d = max(diameter * t, grid.voxel);
             // The light itself is no occluder, nor what it hangs on.
             if (t + 0.5 * d >= end) break;

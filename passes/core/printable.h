@@ -5,8 +5,8 @@
 
 namespace bounce {
 
-/// Text from outside as it may be shown: what is no UTF-8, and control characters (which a terminal obeys and a page's
-/// parser refuses) other than line ends and tabs, become U+FFFD.
+/// Text from outside as it may be shown: what is no UTF-8, and control characters (which a terminal carries out and a
+/// page's parser refuses) other than line ends and tabs, become U+FFFD.
 std::string printable(std::string_view text);
 
 /// The same for a cell of a Markdown table: no end of the cell or line, and no HTML.

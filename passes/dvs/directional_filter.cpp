@@ -14,10 +14,6 @@ void DirectionalFilter::declare(Declaration& d) const {
     d.reads("voxels.counts", Usage::indirect);
 }
 
-void DirectionalFilter::wait() {
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
-}
-
 void DirectionalFilter::run(PassContext& c) const {
     const TextureDesc& directional = c.texture("dvs.directional").desc();
     bool leaves = directional.size.z == c.texture("voxels.normal").desc().size.z;
@@ -27,12 +23,12 @@ void DirectionalFilter::run(PassContext& c) const {
     else
         c.dispatch("base_mips", c.texture("voxels.bricks").desc().size);
     for (int mip = 1; mip < directional.mips; ++mip) {
-        wait();
+        c.barrier();
         c.set("coarser_mip", mip);
         c.bind_mip("dvs.directional", mip);
         c.dispatch("chain_mips", glm::ivec3(directional.size.z >> mip));
     }
-    wait();
+    c.barrier();
 }
 
 namespace {
@@ -44,7 +40,7 @@ class VoxelFilterPass : public Pass {
         description.parameters.add("directional_leaves", directional_leaves_,
                                    "six directional volumes from the base level on, not from half the resolution");
     }
-    std::string unneeded(const SceneFacts& facts) const override {
+    std::string skip_reason(const SceneFacts& facts) const override {
         return facts.lights() || facts.emissive_materials ? "" : "the scene has neither lights nor emissive materials";
     }
     void declare(Declaration& d) override {

@@ -12,8 +12,6 @@ class DirectionalFilter {
     /// Slots: dvs.filtered (the radiance volume) and dvs.directional.
     void declare(Declaration& declaration) const;
     void run(PassContext& context) const;
-    /// Until what was stored can be fetched.
-    static void wait();
 };
 
 } // namespace bounce

@@ -35,7 +35,7 @@ class VoxelDirectPass : public Pass {
         description.parameters.add("two_sided", two_sided_,
                                    "the sides of surfaces that face away from the averaged normal are lit, too");
     }
-    std::string unneeded(const SceneFacts& facts) const override {
+    std::string skip_reason(const SceneFacts& facts) const override {
         return facts.lights() || facts.emissive_materials ? "" : "the scene has neither lights nor emissive materials";
     }
     void declare(Declaration& d) override {
@@ -64,10 +64,10 @@ class VoxelBouncePass : public Pass {
         description.parameters.add("bounces", bounces_, {1, 8}, "",
                                    "indirect bounces; 2, as published: one between voxels, one at the pixel");
     }
-    std::string unneeded(const SceneFacts&) const override {
+    std::string skip_reason(const SceneFacts&) const override {
         return bounces_ > 1 ? "" : "one bounce, the one at the pixel, needs none between voxels";
     }
-    std::vector<std::pair<std::string, std::string>> stand_ins() const override {
+    std::vector<std::pair<std::string, std::string>> fallbacks() const override {
         return {{"dvs.bounced", "dvs.radiance"}};
     }
     void declare(Declaration& d) override {
@@ -88,12 +88,12 @@ class VoxelBouncePass : public Pass {
         for (int bounce = 1; bounce < bounces_; ++bounce) {
             if (bounce > 1) {
                 if (c.has("dvs.directional")) filter_.run(c);
-                glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+                c.barrier();
                 glCopyImageSubData(c.texture("dvs.bounced").id(), GL_TEXTURE_3D, 0, 0, 0, 0,
                                    c.texture("dvs.previous").id(), GL_TEXTURE_3D, 0, 0, 0, 0, size.x, size.y, size.z);
             }
             dispatch_voxels(c, bounce == 1 ? "bounce" : "bounce_again", occupied_only_);
-            DirectionalFilter::wait();
+            c.barrier();
         }
     }
 

@@ -29,11 +29,11 @@ class VoxelizationPass : public Pass {
                      "how the fragments of a voxel become one");
         p.add("planes", planes_, "exact hits on each voxel's mean plane (not for averaging=average)");
         p.add("static_once", static_once_, "voxelizes static geometry only when it changes, as published");
-        p.add("room", room_, {1, 256}, "",
+        p.add("capacity", capacity_, {1, 256}, "",
               "capacity of the list of occupied voxels, in voxels of one face of the grid");
     }
 
-    std::string unneeded(const SceneFacts& facts) const override {
+    std::string skip_reason(const SceneFacts& facts) const override {
         return facts.lights() || facts.emissive_materials ? "" : "the scene has neither lights nor emissive materials";
     }
 
@@ -54,18 +54,18 @@ class VoxelizationPass : public Pass {
         d.creates("voxels.bricks", texture_3d, "r8ui", {bricks, bricks, bricks}).incremental = static_once_;
         if (emission_) volume("voxels.emission", "rgba16f");
         int64_t face = int64_t(resolution_) * resolution_;
-        std::string room = std::to_string(std::min<int64_t>(face * room_, face * resolution_));
+        std::string capacity = std::to_string(std::min<int64_t>(face * capacity_, face * resolution_));
         auto list = [&](const char* name, const std::string& count, int stride) {
             d.creates_buffer(name, count, stride).incremental = static_once_;
         };
-        list("voxels.list", room, 4);
+        list("voxels.list", capacity, 4);
         list("voxels.counts", "8", 4);
         if (averaging_ == Averaging::average) {
             volume("voxels.packed_albedo", "r32ui");
             volume("voxels.packed_normal", "r32ui");
             if (emission_) volume("voxels.packed_emission", "r32ui");
         } else {
-            list("voxels.sums", room, averaging_ == Averaging::last_writer ? 4 : 13 * 4);
+            list("voxels.sums", capacity, averaging_ == Averaging::last_writer ? 4 : 13 * 4);
         }
         d.creates_buffer("voxels.draw_starts", std::to_string(d.fact(&SceneFacts::instances) + 1), 4).incremental =
             static_once_;
@@ -88,7 +88,7 @@ class VoxelizationPass : public Pass {
             d.uses(program);
         d.counts("occupied voxels", "voxels.counts", 3);
         d.counts("of them of static geometry", "voxels.counts", 4);
-        d.counts("voxels that the list has no room for", "voxels.counts", 5, true);
+        d.counts("dropped voxels", "voxels.counts", 5, true);
         bool dynamic = d.fact(&SceneFacts::dynamic_instances) > 0;
         if (dynamic) d.uses("clear_dynamic"), d.uses("forget_dynamic");
     }
@@ -106,9 +106,9 @@ class VoxelizationPass : public Pass {
             add(c, k_static, 0u);
         } else if (c.fact(&SceneFacts::dynamic_instances) > 0) {
             c.dispatch_indirect("clear_dynamic", "voxels.counts");
-            wait();
+            c.barrier();
             c.dispatch("forget_dynamic", {1, 1, 1});
-            wait();
+            c.barrier();
         }
         if (c.fact(&SceneFacts::dynamic_instances) > 0 && static_once_) add(c, k_dynamic, 1u);
     }
@@ -116,16 +116,12 @@ class VoxelizationPass : public Pass {
   private:
     enum class Route { raster, compute };
     enum class Averaging { average, last_writer, sum, gather };
-    static constexpr int k_static = 1, k_dynamic = 2; // as in dvs/list.glsl
-    static constexpr int k_row = 65536;               // as in voxel/triangle_voxels.glsl
+    static constexpr int k_static = 1, k_dynamic = 2;          // as in dvs/list.glsl
+    static constexpr int k_mark = 0, k_add = 1, k_average = 2; // as in dvs/fragment_store.glsl
+    static constexpr int k_row = 65536;                        // as in voxel/triangle_voxels.glsl
 
     /// A voxel's owner finds the triangles that overlap it exactly: so must those that mark it.
     bool by_raster() const { return route_ == Route::raster && averaging_ != Averaging::gather; }
-
-    static void wait() {
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
-                        GL_TEXTURE_FETCH_BARRIER_BIT);
-    }
 
     /// Voxelizes the draws of one kind into voxels that no static geometry holds.
     void add(PassContext& c, int kind, uint32_t flag) {
@@ -152,23 +148,23 @@ class VoxelizationPass : public Pass {
             c.dispatch(by_compute, {std::min(triangles, k_row) * k_lanes, (triangles + k_row - 1) / k_row, 1});
         };
         c.set("kind", kind);
-        c.set("operation", averaging_ == Averaging::average ? 2 : 0);
-        wait();
+        c.set("operation", averaging_ == Averaging::average ? k_average : k_mark);
+        c.barrier();
         visit(averaging_ == Averaging::average ? "voxelize" : "mark");
-        wait();
+        c.barrier();
         int bricks = (resolution_ + 3) / 4;
         c.dispatch("compact", {bricks * bricks * bricks, 1, 1});
-        wait();
+        c.barrier();
         c.dispatch("finish_list", {1, 1, 1});
-        wait();
+        c.barrier();
         if (averaging_ == Averaging::sum) {
-            c.set("operation", 1);
+            c.set("operation", k_add);
             visit("voxelize");
-            wait();
+            c.barrier();
         }
         if (averaging_ == Averaging::gather) gather_fragments(c, triangles);
         c.dispatch_indirect("resolve", "voxels.counts");
-        wait();
+        c.barrier();
     }
 
     void gather_fragments(PassContext& c, int triangles) {
@@ -177,12 +173,12 @@ class VoxelizationPass : public Pass {
             c.set("level", level);
             int boxes = (triangles + (1 << (6 * level)) - 1) >> (6 * level);
             c.dispatch("triangle_bounds", {std::min(boxes, k_row), (boxes + k_row - 1) / k_row, 1});
-            wait();
+            c.barrier();
         }
         for (int first = 0; first < (triangles + 4095) / 4096; first += 8) {
             c.set("first_box", first);
             c.dispatch_indirect("gather_fragments", "voxels.counts");
-            wait();
+            c.barrier();
         }
     }
 
@@ -190,7 +186,7 @@ class VoxelizationPass : public Pass {
     Route route_ = Route::raster;
     Averaging averaging_ = Averaging::average;
     bool static_once_ = true, emission_ = false, planes_ = false;
-    int room_ = 32;
+    int capacity_ = 32;
 };
 
 BOUNCE_REGISTER_PASS("voxelization", VoxelizationPass,

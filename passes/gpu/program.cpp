@@ -106,11 +106,11 @@ static std::string program_log(GLuint program) {
 
 static std::string resource_name(GLuint program, GLenum kind, GLuint index) {
     const GLenum wanted = GL_NAME_LENGTH;
-    GLint room = 1;
-    glGetProgramResourceiv(program, kind, index, 1, &wanted, 1, nullptr, &room);
-    std::string text(size_t(std::max(room, 1)), '\0');
+    GLint capacity = 1;
+    glGetProgramResourceiv(program, kind, index, 1, &wanted, 1, nullptr, &capacity);
+    std::string text(size_t(std::max(capacity, 1)), '\0');
     GLsizei length = 0;
-    glGetProgramResourceName(program, kind, index, room, &length, text.data());
+    glGetProgramResourceName(program, kind, index, capacity, &length, text.data());
     text.resize(size_t(length));
     if (text.ends_with("[0]")) text.resize(text.size() - 3);
     return text;

@@ -200,7 +200,7 @@ Program& PassContext::use(const std::string& name) {
         else if (s && s->resource >= 0)
             buffer = graph_.allocations_.buffer(s->resource, s->bind.previous).id();
         else
-            buffer = graph_.empty_buffer_.id(); // a declined list: something readable must be there
+            buffer = graph_.empty_buffer_.id(); // a skipped list: something readable must be there
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block.binding, buffer);
     }
     return *program;
@@ -214,6 +214,11 @@ void PassContext::dispatch(const std::string& name, glm::ivec3 threads) {
     Program& program = use(name);
     glm::uvec3 count = groups(threads, program.interface().local_size);
     if (count.x && count.y && count.z) glDispatchCompute(count.x, count.y, count.z);
+}
+
+void PassContext::barrier() {
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                    GL_TEXTURE_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
 }
 
 void PassContext::dispatch_indirect(const std::string& name, const std::string& slot_of_counts, GLintptr offset) {

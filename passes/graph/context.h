@@ -56,7 +56,7 @@ class PassContext {
     const std::vector<Material>& materials() const;
     const PlanPass& plan() const { return pass_; }
 
-    /// The whole texture or buffer behind a slot. Throws Error when the slot has none (a declined producer).
+    /// The whole texture or buffer behind a slot. Throws Error when the slot has none (a skipped producer).
     const GpuTexture& texture(const std::string& slot) const;
     const Buffer& buffer(const std::string& slot) const;
     bool has(const std::string& slot) const;
@@ -79,6 +79,9 @@ class PassContext {
     /// At least so many invocations (rounded up to whole groups).
     void dispatch(const std::string& program, glm::ivec3 threads);
     void dispatch_indirect(const std::string& program, const std::string& slot, GLintptr offset = 0);
+    /// What this pass wrote so far is seen by its dispatches, draws and copies from here on. Between passes the graph
+    /// does that by itself.
+    void barrier();
     /// Draws the scene with the state that is set (glEnable …), binding each material's textures. State is put back to
     /// the graph's defaults by the caller: use a Raster object.
     void draw_scene(const std::string& program, const Targets& targets, const DrawOptions& options = {});

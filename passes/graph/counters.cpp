@@ -2,7 +2,7 @@
 
 namespace bounce {
 
-constexpr size_t k_most_pending = 3; // frames; beyond them the newest is skipped, never waited for
+constexpr size_t k_max_pending = 3; // frames; beyond them the newest is skipped, never waited for
 
 bool Counters::collect(const Plan& plan, const Allocations& allocations) {
     bool news = take(0);
@@ -15,7 +15,7 @@ bool Counters::collect(const Plan& plan, const Allocations& allocations) {
         newest_.clear();
         return false;
     }
-    if (pending_.size() >= k_most_pending) return news;
+    if (pending_.size() >= k_max_pending) return news;
     Pending next;
     uint64_t bytes = values.size() * sizeof(uint32_t);
     for (Buffer& buffer : spare_) {

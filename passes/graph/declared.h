@@ -22,7 +22,7 @@ struct Declared {
     std::string loop;
     std::set<ByteRange> facts_read; ///< by its declaration
     bool picture_size_read = false; ///< likewise
-    std::string declined;           ///< reason, or empty
+    std::string skipped;            ///< reason, or empty
 };
 
 /// What a plan is made of.
@@ -37,7 +37,7 @@ struct PlanDraft {
     const ResourceDeclaration* find(const std::string& name) const;
     bool has_writer(const std::string& resource) const;
     /// Something writes it, but nothing that runs.
-    bool all_writers_declined(const std::string& resource) const;
+    bool all_writers_skipped(const std::string& resource) const;
 };
 
 /// The sizes of the resources of a draft, each evaluated when it is first asked for.
@@ -66,11 +66,11 @@ bool is_builtin(const std::string& slot);
 void declare_passes(PlanDraft& draft, ErrorList& errors);
 /// Every slot must have a resource of its kind that something writes, and every slot that the file binds be there.
 void check_sources(const PlanDraft& draft, ErrorList& errors);
-/// Declines what the scene does not need, what only feeds that, and what only that feeds.
-void decline_passes(PlanDraft& draft, PlanSizes& sizes, ErrorList& errors);
+/// Skips what the scene does not need, what only feeds that, and what only that feeds.
+void skip_passes(PlanDraft& draft, PlanSizes& sizes, ErrorList& errors);
 /// The steps of repeated passes.
 void resolve_repeats(PlanDraft& draft, PlanSizes& sizes, ErrorList& errors);
-/// Indices of the passes that have not declined, in the order in which they run: a reader comes after every writer
+/// Indices of the passes that are not skipped, in the order in which they run: a reader comes after every writer
 /// listed before it, or, when none is, after all writers; writers keep their order. Those of a circle are left out.
 std::vector<int> order_passes(const PlanDraft& draft, ErrorList& errors);
 /// What would otherwise only fail when a frame runs: dispatch sizes, bound mips and layers, samplers and images of

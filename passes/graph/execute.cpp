@@ -51,7 +51,7 @@ void Graph::execute(const FrameInputs& inputs) {
                     GL_BUFFER_UPDATE_BARRIER_BIT); // the copies wait for shaders' stores
     for (int resource : invalidation_.end_frame(plan_))
         allocations_.keep_previous(resource);
-    if (counters_.collect(plan_, allocations_)) ask_whether_outgrown();
+    if (counters_.collect(plan_, allocations_)) ask_for_larger_buffers();
     glMemoryBarrier(GL_ALL_BARRIER_BITS); // whoever looks at the results (panels, readback) sees them
     default_state();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -118,20 +118,20 @@ void Graph::run_pass(size_t index, int from, int to) {
     if (check_nan) look_for_nan(pass);
 }
 
-void Graph::ask_whether_outgrown() {
+void Graph::ask_for_larger_buffers() {
     for (const PlanPass& pass : plan_.passes) {
         std::vector<int64_t> counted;
         for (const CounterValue& counter : counters_.newest())
             if (counter.pass == pass.id) counted.push_back(counter.value);
-        if (counted.empty() || !model_->nodes()[size_t(pass.node)]->pass->outgrown(counted)) continue;
+        if (counted.empty() || !model_->nodes()[size_t(pass.node)]->pass->needs_larger_buffers(counted)) continue;
         dirty_ = true;
-        outgrown_ = true;
+        needs_larger_buffers_ = true;
     }
 }
 
-bool Graph::outgrown() {
-    if (counters_.finish()) ask_whether_outgrown();
-    return std::exchange(outgrown_, false);
+bool Graph::needs_larger_buffers() {
+    if (counters_.finish()) ask_for_larger_buffers();
+    return std::exchange(needs_larger_buffers_, false);
 }
 
 void Graph::forget_timings() {

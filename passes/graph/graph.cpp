@@ -81,8 +81,8 @@ bool Graph::needs_plan(const SceneFacts& facts, glm::ivec2 size) {
 
 void Graph::prepare(const SceneFacts& facts, glm::ivec2 size) {
     if (!needs_plan(facts, size)) return;
-    // What was counted with too little room is void: it would make the pass grow once more.
-    if (std::exchange(outgrown_, false)) counters_.drop();
+    // What was counted with buffers that were too small is void: it would make them grow once more.
+    if (std::exchange(needs_larger_buffers_, false)) counters_.drop();
     try {
         plan_again(facts, size);
         plan_problem_.clear();

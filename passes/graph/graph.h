@@ -44,9 +44,9 @@ class Graph {
     /// One frame. prepare() must have run.
     void execute(const FrameInputs& inputs);
 
-    /// Waits for what the passes counted in this frame. True when one of them had no room for something: the frame is
+    /// Waits for what the passes counted in this frame. True when a buffer of one of them was too small: the frame is
     /// to be prepared and executed again, with more (until it fits).
-    bool outgrown();
+    bool needs_larger_buffers();
 
     /// Looks at the watched files; reloads what changed, keeping the last good graph. Returns true when something
     /// changed.
@@ -105,10 +105,10 @@ class Graph {
     bool needs_plan(const SceneFacts& facts, glm::ivec2 size);
     void run_loop(size_t first, size_t last);
     void run_pass(size_t index, int from, int to);
-    void ask_whether_outgrown();
+    void ask_for_larger_buffers();
     void fill_failed(const PlanPass& pass);
     void look_for_nan(const PlanPass& pass);
-    /// What the consumers of a declined pass are given: `value` at every texel.
+    /// What the consumers of a skipped pass are given: `value` at every texel.
     GLuint neutral_texture(GLenum sampler_type, glm::vec4 value, glm::ivec2 size);
     void watch();
 
@@ -120,7 +120,7 @@ class Graph {
     std::vector<bool> planned_switches_; ///< of the nodes
     Rebuild default_rebuild_ = Rebuild::every_frame;
     Invalidation invalidation_;
-    bool outgrown_ = false; ///< a pass wants more room than this plan gives
+    bool needs_larger_buffers_ = false; ///< a pass wants larger buffers than this plan gives
     Timings timings_;
     Allocations allocations_;
     Counters counters_;

@@ -117,11 +117,23 @@ Defines GraphModel::static_values(const PassNode& node) const {
     return values;
 }
 
+/// The values of a pass's own enumerations by name, for its shaders: "averaging_sum". Those of //! lines the shader's
+/// text names by itself (gpu/shader_source.h).
+static Defines choices_of(const PassNode& node) {
+    Defines names;
+    for (const Parameter& parameter : node.parameters.all())
+        for (size_t i = 0; !parameter.info.in_shader && i < parameter.info.choices.size(); ++i)
+            names[parameter.info.name + "_" + parameter.info.choices[i]] = std::to_string(i);
+    return names;
+}
+
 void GraphModel::scan(PassNode& node, const Defines& formats) {
     std::vector<std::string> names;
     const PassNode* shared = find_node(node.entry.params_of);
+    Defines defines = choices_of(node);
+    defines.insert(formats.begin(), formats.end());
     for (const auto& program : node.programs) {
-        program->scan(formats, static_values(node));
+        program->scan(defines, static_values(node));
         for (const ParameterInfo& info : program->parameters()) {
             if (shared && shared->parameters.find(info.name)) continue;
             node.parameters.declare_shader_parameter(info);
@@ -273,7 +285,7 @@ void GraphModel::set(const std::string& name, const std::string& text, Parameter
     if (id != "graph") {
         PassNode& owner = *find_node(id);
         owner.parameters.set_text(own, text, origin);
-        if (!owner.parameters.find(own)->info.in_shader) owner.pass->forget_growth();
+        if (!owner.parameters.find(own)->info.in_shader) owner.pass->reset_capacity();
         if (!owner.parameters.find(own)->info.is_static) return;
         for (const auto& node : nodes_)
             if (node->id() == id || node->entry.params_of == id) scan(*node); // other slots may be there now
@@ -289,7 +301,7 @@ void GraphModel::set(const std::string& name, const std::string& text, Parameter
             double value = evaluate(*expression, graph_names(graph_parameters_));
             node->parameters.set_text(derived, fmt::format("{}", value), ParameterOrigin::graph);
             changes_.insert(node->id() + "." + derived);
-            if (!target->info.in_shader) node->pass->forget_growth();
+            if (!target->info.in_shader) node->pass->reset_capacity();
         }
     }
 }

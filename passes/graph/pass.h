@@ -134,18 +134,18 @@ class Pass {
     virtual ~Pass() = default;
     virtual void describe(PassDescription& description) = 0;
     /// A reason why this scene does not need the pass ("no emissive material"); empty when it does.
-    virtual std::string unneeded(const SceneFacts&) const { return {}; }
-    /// What readers get instead of what this pass makes when it does not run: {made, instead}.
-    virtual std::vector<std::pair<std::string, std::string>> stand_ins() const { return {}; }
+    virtual std::string skip_reason(const SceneFacts&) const { return {}; }
+    /// What readers get instead of what this pass makes when it is skipped: {made, instead}.
+    virtual std::vector<std::pair<std::string, std::string>> fallbacks() const { return {}; }
     virtual void declare(Declaration& declaration) = 0;
     virtual void execute(PassContext& context) = 0;
-    /// Told what the pass counted in a frame, in the order of its `counts` (numbers only). True: something had no room,
-    /// and the pass wants to be planned again, with more (a window shows that in the next frame, headless runs render
-    /// the frame again).
-    virtual bool outgrown(const std::vector<int64_t>&) { return false; }
+    /// Told what the pass counted in a frame, in the order of its `counts` (numbers only). True: a buffer was too
+    /// small, and the pass wants to be planned again, with more (a window shows that in the next frame, headless runs
+    /// render the frame again).
+    virtual bool needs_larger_buffers(const std::vector<int64_t>&) { return false; }
     /// One of its C++ parameters was set: what it had grown to was for other settings. It starts as a fresh one does,
     /// so that it comes to the same batches.
-    virtual void forget_growth() {}
+    virtual void reset_capacity() {}
 };
 
 struct PassType {

@@ -17,7 +17,7 @@ class PlanFiller {
 
     Plan run(const std::vector<int>& order) {
         for (const Declared& pass : draft_.passes)
-            if (!pass.declined.empty()) plan_.declined.push_back({pass.node->id(), pass.declined});
+            if (!pass.skipped.empty()) plan_.skipped.push_back({pass.node->id(), pass.skipped});
         for (const ResourceDeclaration& resource : draft_.resources) {
             auto is_written = [&](int p) {
                 const Declared& pass = draft_.passes[size_t(p)];
@@ -108,12 +108,12 @@ bool PlanDraft::has_writer(const std::string& resource) const {
     return false;
 }
 
-bool PlanDraft::all_writers_declined(const std::string& resource) const {
+bool PlanDraft::all_writers_skipped(const std::string& resource) const {
     bool any = false;
     for (const Declared& pass : passes) {
         for (size_t i = 0; i < pass.uses.size(); ++i) {
             if (!pass.uses[i].writes || pass.targets[i].resource != resource) continue;
-            if (pass.declined.empty()) return false;
+            if (pass.skipped.empty()) return false;
             any = true;
         }
     }
@@ -139,7 +139,7 @@ Plan GraphModel::plan(const SceneFacts& facts, glm::ivec2 size) const {
     PlanSizes sizes(draft, errors);
     for (const ResourceDeclaration& resource : draft.resources)
         sizes.of(resource.name);
-    decline_passes(draft, sizes, errors);
+    skip_passes(draft, sizes, errors);
     resolve_repeats(draft, sizes, errors);
     end_phase();
     std::vector<int> order = order_passes(draft, errors);

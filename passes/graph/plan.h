@@ -1,6 +1,6 @@
 #pragma once
 // The plan of one frame: which passes run in which order, what each slot is bound to, sizes, barriers, and which passes
-// declined and why. Made without OpenGL, so `bounce graph` can print it anywhere.
+// skipped and why. Made without OpenGL, so `bounce graph` can print it anywhere.
 
 #include "graph/graph_file.h"
 #include "graph/pass.h"
@@ -57,7 +57,7 @@ struct PlanPass {
     bool runs(const std::string& program) const;
 };
 
-struct PlanDecline {
+struct PlanSkip {
     std::string id;
     std::string reason;
 };
@@ -65,7 +65,7 @@ struct PlanDecline {
 struct Plan {
     glm::ivec2 size{0};
     std::vector<PlanPass> passes;
-    std::vector<PlanDecline> declined;
+    std::vector<PlanSkip> skipped;
     std::vector<PlanResource> resources;
     std::set<std::string> numbers; ///< parameters ("id.name") that expressions of the plan take their values from
     uint64_t total_bytes() const;
@@ -82,7 +82,7 @@ std::optional<double> side_of(const PlanResource& resource, const std::string& s
 void place_barriers(Plan& plan);
 
 class GraphModel;
-/// Passes in order, who reads and writes what, sizes in bytes, barriers, declined passes with reasons.
+/// Passes in order, who reads and writes what, sizes in bytes, barriers, skipped passes with reasons.
 std::string plan_text(const GraphModel& model, const Plan& plan);
 /// The same as a Graphviz digraph.
 std::string plan_graphviz(const GraphModel& model, const Plan& plan);

@@ -55,7 +55,7 @@ static void declare_pass(PlanDraft& draft, const PassNode& node, ErrorList& erro
     Declaration declaration(draft.facts, draft.size, slots_of);
     Declared pass;
     pass.node = &node;
-    pass.declined = node.enabled ? node.pass->unneeded(draft.facts) : "switched off";
+    pass.skipped = node.enabled ? node.pass->skip_reason(draft.facts) : "switched off";
     try {
         node.pass->declare(declaration);
     } catch (const Error& error) {

@@ -14,7 +14,7 @@ std::vector<int> order_passes(const PlanDraft& draft, ErrorList& errors) {
     for (const ResourceDeclaration& resource : draft.resources) {
         std::vector<int> writers, readers;
         for (int p = 0; p < n; ++p) {
-            if (!passes[p].declined.empty()) continue;
+            if (!passes[p].skipped.empty()) continue;
             bool writes = false, reads = false;
             for (size_t i = 0; i < passes[p].uses.size(); ++i) {
                 if (passes[p].targets[i].resource != resource.name) continue;
@@ -40,18 +40,18 @@ std::vector<int> order_passes(const PlanDraft& draft, ErrorList& errors) {
     }
     std::vector<int> order;
     std::vector<bool> done(n, false);
-    size_t wanted = size_t(std::count_if(passes.begin(), passes.end(), [](auto& p) { return p.declined.empty(); }));
+    size_t wanted = size_t(std::count_if(passes.begin(), passes.end(), [](auto& p) { return p.skipped.empty(); }));
     while (order.size() < wanted) {
         int next = -1;
         for (int p = 0; p < n && next < 0; ++p) {
-            bool ready = !done[p] && passes[p].declined.empty() &&
+            bool ready = !done[p] && passes[p].skipped.empty() &&
                          std::all_of(after[p].begin(), after[p].end(), [&](int before) { return done[before]; });
             if (ready) next = p;
         }
         if (next < 0) {
             std::vector<std::string> names;
             for (int p = 0; p < n; ++p) {
-                if (!done[p] && passes[p].declined.empty()) names.push_back(passes[p].node->id());
+                if (!done[p] && passes[p].skipped.empty()) names.push_back(passes[p].node->id());
             }
             errors.add("these passes wait for each other in a circle: " + join(names, ", ") +
                        " (read last frame's copy with previous(name) to break it)");

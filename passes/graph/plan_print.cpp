@@ -77,9 +77,9 @@ std::string plan_text(const GraphModel& model, const Plan& plan) {
                 out += std::string(slot.use.reads ? "      updates " : "      writes  ") + slot_text(plan, slot) + "\n";
         }
     }
-    if (!plan.declined.empty()) out += "\ndeclined (what the scene does not need is not computed):\n";
-    for (const PlanDecline& declined : plan.declined)
-        out += fmt::format("    {}: {}\n", declined.id, declined.reason);
+    if (!plan.skipped.empty()) out += "\nskipped (what the scene does not need is not computed):\n";
+    for (const PlanSkip& skipped : plan.skipped)
+        out += fmt::format("    {}: {}\n", skipped.id, skipped.reason);
     out += "\nresources:\n";
     for (const PlanResource& resource : plan.resources) {
         std::string flags = resource.declaration.persistent    ? ", persistent"
@@ -109,9 +109,9 @@ std::string plan_graphviz(const GraphModel& model, const Plan& plan) {
     for (const PlanPass& pass : plan.passes)
         out +=
             fmt::format("  \"pass {0}\" [label=\"{0}\", shape=box, style=filled, fillcolor=\"#ffe0a0\"];\n", pass.id);
-    for (const PlanDecline& declined : plan.declined) {
-        out += fmt::format("  \"pass {0}\" [label=\"{0}\\n{1}\", shape=box, style=dashed];\n", declined.id,
-                           quoted(declined.reason));
+    for (const PlanSkip& skipped : plan.skipped) {
+        out += fmt::format("  \"pass {0}\" [label=\"{0}\\n{1}\", shape=box, style=dashed];\n", skipped.id,
+                           quoted(skipped.reason));
     }
     for (const PlanResource& resource : plan.resources) {
         out += fmt::format("  \"{}\" [label=\"{}\\n{}\\n{}\", shape=ellipse];\n", resource.name(), resource.name(),

@@ -28,7 +28,7 @@ void run_prefix_sum(PassContext& c, int64_t count) {
         c.set("prefix_stage", stage);
         int64_t across = stage == 1 ? 1 : std::min(blocks, k_row), up = stage == 1 ? 1 : (blocks + k_row - 1) / k_row;
         c.dispatch("prefix_sum", {int(across) * 256, int(up), 1});
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        c.barrier();
     }
 }
 

@@ -41,7 +41,7 @@ struct ResourceDeclaration {
     /// The first three channels are proportional to light: stored times FrameConstants::pre_exposure. holds_radiance()
     /// of the name unless said otherwise.
     bool radiance = false;
-    glm::vec4 neutral{0};    ///< what consumers read when its pass declined; also the clear value
+    glm::vec4 neutral{0};    ///< what consumers read when its pass is skipped; also the clear value
     std::string declared_by; ///< pass id or "graph file"
 };
 

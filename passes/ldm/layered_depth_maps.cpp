@@ -1,6 +1,7 @@
 // Layered depth maps (LDM, section 3 and 4): N orthographic views, each texel a list of all surfaces along the axis,
 // sorted while it is built. Built in batches that fit a memory limit; what uses them takes its steps in the same loop.
 #include "graph/context.h"
+#include "graph/list_capacity.h"
 #include "graph/prefix_sum.h"
 #include "ldm/directions.h"
 #include "ldm/views.h"
@@ -39,7 +40,7 @@ class LayeredDepthMapsPass : public Pass {
     void declare(Declaration& d) override {
         // What a batch takes: a head a texel, and its nodes with a reserve, since batches differ a little.
         int64_t texels = int64_t(resolution_) * resolution_;
-        double density = std::max(double(fragments_), grown_);
+        double density = std::max(double(fragments_), nodes_a_texel_);
         double map_bytes = double(texels) * 4 * (1 + node_words() * density);
         if (arrays()) map_bytes += double(texels) * 4 * (2 + (node_words() - 1) * density);
         slots_ = int(std::clamp(memory_ * 1048576.0 / map_bytes, 1.0, double(maps_)));
@@ -59,7 +60,7 @@ class LayeredDepthMapsPass : public Pass {
         for (const char* name : {"ldm.views", "ldm.info", "ldm.lists"})
             d.writes(name, Usage::storage);
         d.counts("fragments in the largest batch", "ldm.counts", 1);
-        d.counts("fragments without room", "ldm.counts", 2, true);
+        d.counts("dropped fragments", "ldm.counts", 2, true);
         d.counts("fragments of all maps", "ldm.counts", 3);
         d.counts("KiB of all lists", "ldm.counts", 4);
         d.uses(route_ == Route::raster ? "build" : "build_by_compute");
@@ -76,34 +77,33 @@ class LayeredDepthMapsPass : public Pass {
         d.repeat(0, batches_, "ldm");
     }
 
-    /// Room for what the largest batch had asked for, and some more.
-    bool outgrown(const std::vector<int64_t>& counted) override {
-        if (counted.size() < 2 || counted[1] <= 0) return false;
-        double texels = double(resolution_) * resolution_ * slots_;
-        double wanted = 1.1 * double(counted[0]) / texels;
-        if (wanted <= grown_ || double(counted[0]) <= double(capacity_)) return false;
-        grown_ = wanted;
+    /// As many nodes a texel as the fullest batch needs: the next plan may divide the maps into other batches.
+    bool needs_larger_buffers(const std::vector<int64_t>& counted) override {
+        if (!list_.needs_larger(counted, capacity_)) return false;
+        nodes_a_texel_ = double(list_.entries()) / (double(resolution_) * resolution_ * slots_);
         return true;
     }
 
-    void forget_growth() override { grown_ = 0; }
+    void reset_capacity() override {
+        list_.reset();
+        nodes_a_texel_ = 0;
+    }
 
     void execute(PassContext& c) override {
-        auto wait = [] { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); };
         if (c.iteration == 0) write_views(c);
         c.set("batch", c.iteration);
         int heads = slots_ * resolution_ * resolution_, for_each_head = std::min(heads, 1 << 22);
         c.set("marks_from", int(k_counts + c.draws().size() + 1));
         c.dispatch("start_batch", {for_each_head, 1, 1});
-        wait();
+        c.barrier();
         build(c, (maps_ - c.iteration + batches_ - 1) / batches_);
-        wait();
+        c.barrier();
         if (arrays()) {
             c.dispatch("list_lengths", {for_each_head, 1, 1});
-            wait();
+            c.barrier();
             run_prefix_sum(c, heads);
             c.dispatch("write_arrays", {for_each_head, 1, 1});
-            wait();
+            c.barrier();
         }
         c.dispatch("finish_batch", {1, 1, 1});
     }
@@ -138,7 +138,7 @@ class LayeredDepthMapsPass : public Pass {
         c.set("slot_count", slots_);
         c.set("bands", 0);
         c.dispatch("build_by_compute", {groups * k_group, (slots + k_maps_each - 1) / k_maps_each, 1});
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        c.barrier();
         // In the second round an invocation looks at a sixty-fourth of up to 64 triangles of up to so many texels.
         constexpr int k_band_texels = 16384;
         int bands = std::min((resolution_ * resolution_ + k_band_texels - 1) / k_band_texels, resolution_);
@@ -168,7 +168,8 @@ class LayeredDepthMapsPass : public Pass {
     bool tilted_ = false, rotate_ = false;
     int memory_ = 120;
     float fragments_ = 4;
-    double grown_ = 0; ///< nodes a texel that a batch was found to need
+    ListCapacity list_;
+    double nodes_a_texel_ = 0; ///< that a batch was found to need
     int slots_ = 1, batches_ = 1;
     int64_t capacity_ = 0;
 };

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "graph/context.h"
+#include "graph/list_capacity.h"
 #include "graph/prefix_sum.h"
 
 #include <algorithm>
@@ -23,11 +24,11 @@ class PhotonsPass : public Pass {
                                    "second bounce: axes per photon (needs ldm.nodes=surface); 0: off, as published");
         description.parameters.add("third_axes", third_axes_, {0, 16}, "axes",
                                    "third bounce: axes per photon (needs second_axes)");
-        description.parameters.add("photons", room_, {0.001, 1}, "per photon traced",
+        description.parameters.add("photons", initial_share_, {0.001, 1}, "per photon traced",
                                    "initial capacity, share of a batch's photons; enlarged on overflow");
     }
 
-    std::string unneeded(const SceneFacts& facts) const override {
+    std::string skip_reason(const SceneFacts& facts) const override {
         return facts.point_lights + facts.spot_lights ? "" : "the scene has no point or spot light";
     }
 
@@ -39,35 +40,29 @@ class PhotonsPass : public Pass {
         const std::string values =
             emitters + " * ceil(ldm.views.count / ldm.batches.count) * " + std::to_string(paths());
         d.creates_buffer("photons.emitters", emitters, sizeof(Emitter)).overwritten = true;
-        d.creates_buffer("photons.fates", values, 4).overwritten = true;
+        d.creates_buffer("photons.outcomes", values, 4).overwritten = true;
         d.creates_buffer("photons.commands", "8", 4).overwritten = true;
         d.creates_buffer("photons.counts", "4", 4);
         d.creates_buffer("photons.stored",
-                         grown_ > 0 ? std::to_string(grown_)
-                                    : "max(256, ceil(" + values + " * " + std::to_string(room_) + "))",
+                         list_.entries() > 0
+                             ? std::to_string(list_.entries())
+                             : "max(256, ceil(" + values + " * " + std::to_string(initial_share_) + "))",
                          sizeof(Photon))
             .overwritten = true;
         declare_prefix_sum(d, values);
         d.counts("photons in the largest batch", "photons.counts", 0);
-        d.counts("photons without room", "photons.counts", 1, true);
+        d.counts("dropped photons", "photons.counts", 1, true);
         d.counts("photons that arrive where the camera looks", "photons.counts", 2);
     }
 
-    bool outgrown(const std::vector<int64_t>& counted) override {
-        if (counted.size() < 2 || counted[1] <= 0) return false;
-        int64_t wanted = int64_t(std::ceil(1.1 * double(counted[0])));
-        if (wanted <= grown_) return false;
-        grown_ = wanted;
-        return true;
-    }
+    bool needs_larger_buffers(const std::vector<int64_t>& counted) override { return list_.needs_larger(counted); }
 
-    void forget_growth() override { grown_ = 0; }
+    void reset_capacity() override { list_.reset(); }
 
     void execute(PassContext& c) override {
-        auto wait = [] { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); };
         glm::ivec3 map = c.texture("rsm.depth").desc().size;
         int emitters = map.x * map.y * map.z;
-        int slots = int(c.buffer("photons.fates").bytes() / 4 / size_t(emitters * paths()));
+        int slots = int(c.buffer("photons.outcomes").bytes() / 4 / size_t(emitters * paths()));
         if (second_axes_ > 0 && c.number("ldm.nodes").value_or(0) < 2)
             throw Error("more than one bounce needs the normal and albedo of what photons meet: set ldm.nodes=surface");
         c.set("batch", c.iteration);
@@ -75,13 +70,13 @@ class PhotonsPass : public Pass {
         c.set("value_count", emitters * slots * paths());
         if (c.iteration == 0) {
             c.dispatch("primaries", map);
-            wait();
+            c.barrier();
         }
         c.dispatch("trace_photons", {emitters, slots, paths()});
-        wait();
+        c.barrier();
         run_prefix_sum(c, int64_t(emitters) * slots * paths());
         c.dispatch("store_photons", {emitters, slots, paths()});
-        wait();
+        c.barrier();
         c.dispatch("finish_photons", {1, 1, 1});
     }
 
@@ -89,8 +84,8 @@ class PhotonsPass : public Pass {
     int paths() const { return 1 + second_axes_ * (1 + third_axes_); }
 
     int second_axes_ = 0, third_axes_ = 0;
-    float room_ = 0.25f;
-    int64_t grown_ = 0; ///< photons of the largest batch so far, and a reserve; 0: not known yet
+    float initial_share_ = 0.25f;
+    ListCapacity list_;
 };
 
 BOUNCE_REGISTER_PASS("photons", PhotonsPass,

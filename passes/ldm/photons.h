@@ -29,7 +29,7 @@ struct Photon {
 };
 static_assert(sizeof(Photon) == 64);
 
-/// What became of a photon (photons.fates).
+/// What became of a photon (photons.outcomes).
 enum class PhotonFate : uint32_t { none, left, unseen, too_wide, arrived };
 
 } // namespace bounce

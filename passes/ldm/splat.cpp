@@ -1,6 +1,7 @@
 // Photon splatting (LDM, section 4.2): every photon of a batch adds its light to the pixels under its footprint. By
 // blending, as published, or in compute: photons are binned by tiles, and each pixel adds up those of its tile.
 #include "graph/context.h"
+#include "graph/list_capacity.h"
 #include "graph/prefix_sum.h"
 
 #include <cmath>
@@ -24,7 +25,7 @@ class SplatPass : public Pass {
         description.constant("splat_size");
     }
 
-    std::string unneeded(const SceneFacts& facts) const override {
+    std::string skip_reason(const SceneFacts& facts) const override {
         return facts.point_lights + facts.spot_lights ? "" : "the scene has no point or spot light";
     }
 
@@ -40,25 +41,20 @@ class SplatPass : public Pass {
             d.creates_buffer("photons.chunks", "ceil(photons.stored.count / 256)", 8).overwritten = true;
             int tiles = ((size(d.picture_size().x) + 7) / 8) * ((size(d.picture_size().y) + 7) / 8);
             declare_prefix_sum(d, "photons.chunks.count * " + std::to_string(tiles));
-            d.creates_buffer("splat.lists", grown_ > 0 ? std::to_string(grown_) : "4 * photons.stored.count", 4)
+            d.creates_buffer("splat.lists",
+                             list_.entries() > 0 ? std::to_string(list_.entries()) : "4 * photons.stored.count", 4)
                 .overwritten = true;
             d.creates_buffer("splat.counts", "2", 4);
             d.counts("photons in the tiles of the largest batch", "splat.counts", 0);
-            d.counts("photons in tiles without room", "splat.counts", 1, true);
+            d.counts("dropped tile entries", "splat.counts", 1, true);
             for (const char* program : {"boxes", "bins", "tiles"})
                 d.uses(program);
         }
     }
 
-    bool outgrown(const std::vector<int64_t>& counted) override {
-        if (counted.size() < 2 || counted[1] <= 0) return false;
-        int64_t wanted = int64_t(std::ceil(1.1 * double(counted[0])));
-        if (wanted <= grown_) return false;
-        grown_ = wanted;
-        return true;
-    }
+    bool needs_larger_buffers(const std::vector<int64_t>& counted) override { return list_.needs_larger(counted); }
 
-    void forget_growth() override { grown_ = 0; }
+    void reset_capacity() override { list_.reset(); }
 
     void execute(PassContext& c) override {
         c.set("splat_size", glm::vec2(c.size("photons.irradiance")));
@@ -72,13 +68,12 @@ class SplatPass : public Pass {
         glm::ivec2 picture = c.size("photons.irradiance");
         int tiles = ((picture.x + 7) / 8) * ((picture.y + 7) / 8);
         int chunks = int(c.buffer("photons.chunks").bytes() / 8);
-        auto wait = [] { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); };
         c.set("chunk_count", chunks);
         for (int stage : {0, 1}) {
-            wait();
+            c.barrier();
             c.set("bin_stage", stage);
             c.dispatch("bins", {chunks, tiles, 1});
-            wait();
+            c.barrier();
             if (stage == 0) run_prefix_sum(c, int64_t(chunks) * tiles);
         }
         c.dispatch("tiles", {picture, 1});
@@ -90,7 +85,7 @@ class SplatPass : public Pass {
 
     Route route_ = Route::blend;
     float scale_ = 1;
-    int64_t grown_ = 0; ///< places in tiles' lists that the largest batch so far took, and a reserve
+    ListCapacity list_;
 };
 
 BOUNCE_REGISTER_PASS("splat", SplatPass, "adds the light of photons to the pixels under their footprints")

@@ -10,7 +10,7 @@ class ViewFootprintsPass : public Pass {
         description.constant("background");
     }
 
-    std::string unneeded(const SceneFacts& facts) const override {
+    std::string skip_reason(const SceneFacts& facts) const override {
         return facts.point_lights + facts.spot_lights ? "" : "the scene has no point or spot light";
     }
 

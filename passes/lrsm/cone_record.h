@@ -6,8 +6,8 @@
 
 namespace bounce {
 
-inline constexpr int k_most_recorded_cones = 128;
-inline constexpr int k_most_recorded_spheres = 256; ///< a cone
+inline constexpr int k_max_recorded_cones = 128;
+inline constexpr int k_max_recorded_spheres = 256; ///< a cone
 
 /// All std430, 64 bytes each.
 struct InspectedPixel {
@@ -51,7 +51,7 @@ static_assert(sizeof(InspectedPixel) == 64 && sizeof(RecordedCone) == 64 && size
 /// The buffer debug.cones begins so; RecordedCone::first counts spheres from its end.
 struct ConeRecords {
     InspectedPixel inspected;
-    RecordedCone cones[k_most_recorded_cones];
+    RecordedCone cones[k_max_recorded_cones];
 };
 
 } // namespace bounce

@@ -12,9 +12,9 @@ class LrsmLayersPass : public Pass {
             description.program(name, {std::string("lrsm/") + name + ".comp"});
         description.constant("pool_layers");
         ParameterSet& p = description.parameters;
-        p.add("depth_layers", depth_layers_, {1, k_most_depth_layers}, "",
+        p.add("depth_layers", depth_layers_, {1, k_max_depth_layers}, "",
               "a + 1: parts that depth is cut into (at most, when adaptive)");
-        p.add("normal_layers", normal_layers_, {1, k_most_normal_layers}, "",
+        p.add("normal_layers", normal_layers_, {1, k_max_normal_layers}, "",
               "b + 1: parts that the cosine between normal and light is cut into");
         p.add("adaptive", adaptive_, "boundaries from histograms of depth and cosine instead of equal parts");
         p.add("skip_empty", skip_empty_, "layers that hold no texel are neither stored nor sampled");
@@ -22,7 +22,7 @@ class LrsmLayersPass : public Pass {
               "capacity in layers when empty ones are skipped; 0: all that there can be");
     }
 
-    std::string unneeded(const SceneFacts& facts) const override {
+    std::string skip_reason(const SceneFacts& facts) const override {
         return facts.lights() ? "" : "the scene has no punctual light";
     }
 
@@ -41,7 +41,7 @@ class LrsmLayersPass : public Pass {
         attribute("lrsm.normal", "rgba16f");
         attribute("lrsm.depth", "rgba16");
         d.creates_buffer("lrsm.partitions", std::to_string(std::max(views, 1)), sizeof(LrsmPartition));
-        int places = std::max(views, 1) * k_most_depth_layers * k_most_normal_layers;
+        int places = std::max(views, 1) * k_max_depth_layers * k_max_normal_layers;
         d.creates_buffer("lrsm.table", std::to_string(places), 4);
         d.creates_buffer("lrsm.summary", std::to_string(2 + std::max(views, 1)), 4);
         d.counts("layers stored, of " + std::to_string(layers), "lrsm.summary", 0);
@@ -61,22 +61,21 @@ class LrsmLayersPass : public Pass {
     }
 
     void execute(PassContext& c) override {
-        auto wait = [] { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); };
         c.set("pool_layers", pool_layers_);
         const GpuTexture& map = c.texture("rsm.radiance");
         glm::ivec3 size = map.desc().size;
         if (adaptive_) {
             c.dispatch("histogram", size);
-            wait();
+            c.barrier();
         }
         c.dispatch("partitions", {size.z, 1, 1});
-        wait();
+        c.barrier();
         if (skip_empty_) {
             c.dispatch("count", size);
-            wait();
+            c.barrier();
         }
         c.dispatch("table", {1, 1, 1});
-        wait();
+        c.barrier();
         c.dispatch("layers", {size.x / 2, size.y / 2, size.z});
     }
 

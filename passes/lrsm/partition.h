@@ -3,15 +3,15 @@
 
 namespace bounce {
 
-inline constexpr int k_most_depth_layers = 8;
-inline constexpr int k_most_normal_layers = 4;
+inline constexpr int k_max_depth_layers = 8;
+inline constexpr int k_max_normal_layers = 4;
 
 /// std430. Depths are metres along the light's view.
 struct LrsmPartition {
-    float depth[k_most_depth_layers + 1];   ///< boundaries: depth[i] … depth[i + 1] is depth layer i
-    float normal[k_most_normal_layers + 1]; ///< boundaries of ⟨n·l⟩, 0 … 1
-    float overlap;                          ///< δ, metres
-    int depth_layers;                       ///< that are used; at most what is allocated
+    float depth[k_max_depth_layers + 1];   ///< boundaries: depth[i] … depth[i + 1] is depth layer i
+    float normal[k_max_normal_layers + 1]; ///< boundaries of ⟨n·l⟩, 0 … 1
+    float overlap;                         ///< δ, metres
+    int depth_layers;                      ///< that are used; at most what is allocated
 };
 static_assert(sizeof(LrsmPartition) == 64);
 

@@ -115,7 +115,7 @@ float Integrator::light_probability(size_t i, const Place& x) const {
 /// Next-event estimation: for each light (or drawn light) that reaches the surface, calls
 /// add(kind, l, irradiance at normal incidence ÷ density, density per solid angle, 0 for a hard light).
 template <class Add>
-void Integrator::sample_lights(const Surface& surface, PixelSampler& sampler, size_t most_lights, Add&& add) {
+void Integrator::sample_lights(const Surface& surface, PixelSampler& sampler, size_t max_lights, Add&& add) {
     const glm::vec3 origin = surface.origin();
     const PunctualLights& lights = scene_.lights;
     auto from_light = [&](size_t i, float probability) {
@@ -130,7 +130,7 @@ void Integrator::sample_lights(const Surface& surface, PixelSampler& sampler, si
             return;
         add(k_punctual, s.direction, s.irradiance / probability, s.density * probability);
     };
-    if (lights.size() <= most_lights) {
+    if (lights.size() <= max_lights) {
         for (size_t i = 0; i < lights.size(); ++i)
             from_light(i, 1);
     } else {
@@ -171,10 +171,10 @@ void Integrator::sample_lights(const Surface& surface, PixelSampler& sampler, si
 /// What a ray drawn from a lobe meets by itself, weighted against next-event estimation: add(kind, radiance).
 template <class Add>
 void Integrator::meet_lights(const Place& origin, const glm::vec3& direction, const Hit& hit, float own_density,
-                             size_t most_lights, Add&& add) {
+                             size_t max_lights, Add&& add) {
     scene_.lights.meet(origin, direction, hit.valid() ? hit.distance : k_infinity,
                        [&](size_t i, const glm::vec3& radiance, float density) {
-                           if (scene_.lights.size() > most_lights) density *= light_probability(i, origin);
+                           if (scene_.lights.size() > max_lights) density *= light_probability(i, origin);
                            add(k_punctual, radiance * mis_weight(own_density, density));
                        });
     if (!hit.valid()) {
@@ -264,7 +264,7 @@ bool Integrator::extend(Path& path, const Surface& surface) {
 /// Follows all paths to their ends, all of them one surface further in each round: each step over all paths fetches
 /// what the next step reads.
 void Integrator::follow(std::vector<Path>& paths) {
-    TraceGeometry::SurfacePlace places[2 * k_most_together];
+    TraceGeometry::SurfacePlace places[2 * k_max_together];
     size_t running = paths.size();
     while (running > 0) {
         for (const Path& path : paths) {
@@ -370,8 +370,8 @@ void Integrator::begin(int x, int y, PixelSampler& sampler, PixelSample& out, st
 }
 
 void Integrator::sample(int x, int y, std::span<PixelSampler> samplers, std::span<PixelSample> out) {
-    for (size_t first = 0; first < samplers.size(); first += k_most_together) {
-        const size_t end = std::min(samplers.size(), first + k_most_together);
+    for (size_t first = 0; first < samplers.size(); first += k_max_together) {
+        const size_t end = std::min(samplers.size(), first + k_max_together);
         paths_.clear();
         for (size_t i = first; i < end; ++i)
             begin(x, y, samplers[i], out[i], paths_);

@@ -57,7 +57,7 @@ class Integrator {
 
     /// One sample of the pixel for each sampler. Samples do not depend on which others are taken with them; taking some
     /// together is faster.
-    static constexpr int k_most_together = 8;
+    static constexpr int k_max_together = 8;
     void sample(int x, int y, std::span<PixelSampler> samplers, std::span<PixelSample> out);
     PixelSurface centre(int x, int y);
 
@@ -75,10 +75,10 @@ class Integrator {
         return scene_.geometry.blended() ? sampler.key(which) : 0;
     }
     template <class Add>
-    void sample_lights(const Surface& surface, PixelSampler& sampler, size_t most_lights, Add&& add);
+    void sample_lights(const Surface& surface, PixelSampler& sampler, size_t max_lights, Add&& add);
     template <class Add>
     void meet_lights(const Place& origin, const glm::vec3& direction, const Hit& hit, float own_density,
-                     size_t most_lights, Add&& add);
+                     size_t max_lights, Add&& add);
     void begin(int x, int y, PixelSampler& sampler, PixelSample& out, std::vector<Path>& paths);
     void follow(std::vector<Path>& paths);
     bool extend(Path& path, const Surface& surface);

@@ -67,10 +67,10 @@ class GoalRun {
 
   private:
     bool by_noise() const { return goal_.samples == 0; }
-    int limit() const { return by_noise() ? goal_.most_samples : goal_.samples; }
+    int limit() const { return by_noise() ? goal_.max_samples : goal_.samples; }
     bool at_checkpoint() const {
         const int n = render_.samples();
-        return n > 0 && n == render_.most_samples() && reference_checkpoint(n - 1) == n;
+        return n > 0 && n == render_.max_samples() && reference_checkpoint(n - 1) == n;
     }
     int next_count() const { return std::min(limit(), reference_checkpoint(render_.samples())); }
 
@@ -82,7 +82,7 @@ class GoalRun {
         return checkpoint.relative_noise.at(goal.part) <= goal.noise;
     }
     bool reached() const {
-        if (render_.samples() >= limit() && render_.samples() == render_.most_samples()) return true;
+        if (render_.samples() >= limit() && render_.samples() == render_.max_samples()) return true;
         return by_noise() && at_checkpoint() && !render_.history().empty() &&
                render_.history().back().samples == render_.samples() && quiet_enough(render_.history().back(), goal_);
     }
@@ -106,7 +106,7 @@ class GoalRun {
             }
         }
         for (auto state = states.rbegin(); state != states.rend(); ++state) {
-            if (state->most_samples > last) continue;
+            if (state->max_samples > last) continue;
             try {
                 render_.load_state(state->path);
                 if (at_checkpoint()) render_.add_checkpoint();

@@ -13,7 +13,7 @@ struct ReferenceGoal {
     double noise = 0; ///< relative noise (RMS standard error ÷ mean) of `part` off edges, checked at
                       ///< `reference_checkpoint`s; 0 = by samples
     std::string part = "out.radiance";
-    int most_samples = 1 << 16; ///< when the noise is not reached before
+    int max_samples = 1 << 16; ///< when the noise is not reached before
 };
 
 struct ReferenceProgress {

@@ -19,7 +19,7 @@ namespace bounce {
 namespace {
 constexpr int k_tile = 16;
 /// Samples a pixel takes between two looks at `cancelled_`.
-constexpr int k_pass = Integrator::k_most_together;
+constexpr int k_pass = Integrator::k_max_together;
 } // namespace
 
 struct ReferenceRender::Centres {
@@ -146,7 +146,7 @@ int ReferenceRender::samples() const {
         ->samples;
 }
 
-int ReferenceRender::most_samples() const {
+int ReferenceRender::max_samples() const {
     return std::max_element(tiles_.begin(), tiles_.end(), [](auto& a, auto& b) { return a.samples < b.samples; })
         ->samples;
 }

@@ -51,7 +51,7 @@ class ReferenceRender {
     int width() const { return width_; }
     int height() const { return height_; }
     int samples() const;                    ///< the least of any pixel
-    int most_samples() const;               ///< the most of any pixel: more than samples() after a cancelled step
+    int max_samples() const;                ///< the most of any pixel: more than samples() after a cancelled step
     uint64_t rays() const { return rays_; } ///< traced by this object so far
     const ReferenceSettings& settings() const { return settings_; }
 
@@ -87,7 +87,7 @@ class ReferenceRender {
     /// What a state file says of itself, without its pixels.
     struct StateHeader {
         std::string key;
-        int samples = 0, most_samples = 0;
+        int samples = 0, max_samples = 0;
         std::vector<Checkpoint> history;
     };
 

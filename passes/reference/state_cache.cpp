@@ -32,11 +32,11 @@ std::vector<KeptState> kept_states(const std::string& key) {
         const std::string name = entry.path().filename().string();
         if (name.rfind(key + "-", 0) != 0 || entry.path().extension() != ".state") continue;
         if (auto header = read_state_header(entry.path())) {
-            states.push_back({entry.path(), header->samples, header->most_samples});
+            states.push_back({entry.path(), header->samples, header->max_samples});
         }
     }
     std::sort(states.begin(), states.end(), [](const KeptState& a, const KeptState& b) {
-        return std::tie(a.samples, a.most_samples, a.path) < std::tie(b.samples, b.most_samples, b.path);
+        return std::tie(a.samples, a.max_samples, a.path) < std::tie(b.samples, b.max_samples, b.path);
     });
     return states;
 }

@@ -12,8 +12,8 @@ namespace bounce {
 /// What is known of a kept state without reading its pixels.
 struct KeptState {
     std::filesystem::path path;
-    int samples = 0;      ///< the least of any pixel
-    int most_samples = 0; ///< the most
+    int samples = 0;     ///< the least of any pixel
+    int max_samples = 0; ///< the most
 };
 
 /// All states of one key, fewest samples first. Damaged files are left out.

@@ -25,7 +25,7 @@ void ReferenceRender::save_state(const std::filesystem::path& path) const {
     header["height"] = height_;
     header["channels"] = k_reference_channels;
     header["samples"] = samples();
-    header["most_samples"] = most_samples();
+    header["max_samples"] = max_samples();
     for (const Tile& tile : tiles_)
         header["tiles"].push_back(tile.samples);
     header["history"] = nlohmann::json::array();
@@ -89,7 +89,7 @@ std::optional<ReferenceRender::StateHeader> read_state_header(const std::filesys
         ReferenceRender::StateHeader header;
         header.key = json.at("key").get<std::string>();
         header.samples = json.at("samples").get<int>();
-        header.most_samples = json.at("most_samples").get<int>();
+        header.max_samples = json.at("max_samples").get<int>();
         for (const auto& entry : json.at("history"))
             header.history.push_back(checkpoint_of(entry));
         return header;

@@ -19,7 +19,7 @@ constexpr double k_far = 16;
 constexpr double k_smallest = 1e-4, k_largest = 1e6;
 /// The same for a mesh in its own coordinates, where only products of three lengths must be floats.
 constexpr double k_smallest_mesh = 1e-6, k_largest_mesh = 1e6;
-constexpr size_t k_most_triangles = 1 << 17;
+constexpr size_t k_max_triangles = 1 << 17;
 
 using Triangle = std::array<glm::dvec3, 3>;
 
@@ -104,7 +104,7 @@ Extent extent_of(std::vector<Triangle> triangles) {
 /// large ones.
 class Sampler {
   public:
-    Sampler(const Scene& scene, size_t triangles) : scene_(scene), stride_(triangles / k_most_triangles + 1) {}
+    Sampler(const Scene& scene, size_t triangles) : scene_(scene), stride_(triangles / k_max_triangles + 1) {}
 
     void add(const Primitive& primitive, const glm::dmat4& world) {
         const size_t count = primitive.index_count / 3;

@@ -56,7 +56,7 @@ inline glm::vec3 diffuse_lobe(MaterialModel model, const glm::vec3& n, const glm
     if (model == MaterialModel::plain) return lambert;
     lambert *= fresnel_diffuse_weight(v, glm::normalize(v + l));
     const float nv = glm::dot(n, v), nl = glm::dot(n, l);
-    // Beyond the horizon there is no microfacet lobe to make room for.
+    // Beyond the horizon there is no microfacet lobe.
     if (model != MaterialModel::gltf || nv <= 0 || nl <= 0) return lambert;
     const glm::vec3 rho = base_colour * (1 - metallic), f0 = brdf_f0(base_colour, metallic);
     return lambert * glm::min(diffuse_limit(rho, f0, roughness, nv), diffuse_limit(rho, f0, roughness, nl));

@@ -238,7 +238,7 @@ Bounds scene_bounds(const Scene& scene, float time);
 /// World bounds over the whole animation (all keys and points between them).
 Bounds scene_bounds_over_animation(const Scene& scene);
 
-/// What a scene holds, and so what it needs. Passes decline by these (“no emissive material”).
+/// What a scene holds, and so what it needs. Passes are skipped by these (“no emissive material”).
 struct SceneFacts {
     size_t triangles = 0; ///< drawn: a mesh used twice counts twice
     size_t vertices = 0;

@@ -13,7 +13,7 @@ class ShadowMapsPass : public Pass {
         description.parameters.add("resolution", resolution_, {16, 8192}, "texels", "width and height of each map");
     }
 
-    std::string unneeded(const SceneFacts& facts) const override {
+    std::string skip_reason(const SceneFacts& facts) const override {
         return facts.lights() ? "" : "the scene has no punctual light";
     }
 

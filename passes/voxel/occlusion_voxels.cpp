@@ -72,7 +72,7 @@ class OcclusionVoxelsPass : public Pass {
         c.dispatch(storage_ == Storage::bits ? "bits" : "compute",
                    {std::min(triangles, k_row) * k_lanes, (triangles + k_row - 1) / k_row, 1});
         if (storage_ == Storage::bits && c.iteration == 7) {
-            glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+            c.barrier();
             c.dispatch("brick_mip", c.texture("voxels.occlusion").desc().size);
         }
     }

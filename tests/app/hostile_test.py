@@ -370,7 +370,7 @@ class CommandLines(Hostile):
 class Merges(Hostile):
     POINT = {"key": "0123456789abcdef", "shot": "s", "graph": "g", "values": {}, "size": [16, 16], "warm_up": 0, "frames": 1,
              "reference_goal": {"noise": 0.01, "samples": 4}, "command": "c", "total_ms": 80.3, "bytes": 1,
-             "passes": [{"id": "gbuffer", "median_ms": 1, "p10_ms": 1, "p90_ms": 1, "bytes": 8}], "declined": [],
+             "passes": [{"id": "gbuffer", "median_ms": 1, "p10_ms": 1, "p90_ms": 1, "bytes": 8}], "skipped": [],
              "transport_bounces": 0, "parts": ["out.direct"],
              "same_transport": {"bias": -0.8, "rmse": 0.1, "relative_rmse": 2.0, "relative_mse": 1, "p99": 7, "flip": 0.6,
                                 "ssim": 0.1, "reference_noise": 0.001},
@@ -403,7 +403,7 @@ class Merges(Hostile):
         result = self.merge(shot=self.SCRIPT, graph=self.SCRIPT, command=self.SCRIPT, renderer=self.SCRIPT, commit="\x01\x1b" + self.SCRIPT,
                             values={self.SCRIPT: self.SCRIPT, "a.b": "=cmd()"},
                             passes=[{"id": self.SCRIPT, "median_ms": 1, "p10_ms": 1, "p90_ms": 1, "bytes": 8}],
-                            declined=[{"id": self.SCRIPT, "reason": self.SCRIPT}])
+                            skipped=[{"id": self.SCRIPT, "reason": self.SCRIPT}])
         self.assert_good(result)
         page, picture, table = ((self.out / "merged" / name).read_text() for name in ("chart.html", "chart.svg", "chart.csv"))
         for text in (page, picture):

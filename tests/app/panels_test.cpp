@@ -20,7 +20,7 @@ TEST_F(PanelsTest, GraphSwitchesPassesAndTakesItBack) {
     auto row = std::find_if(rows.begin(), rows.end(), [](auto& r) { return r.id == "direct"; });
     ASSERT_NE(row, rows.end());
     EXPECT_EQ(row->plan, -1);
-    EXPECT_EQ(row->declined, "switched off");
+    EXPECT_EQ(row->skipped, "switched off");
     EXPECT_TRUE(has("graph.enabled.direct"));
     EXPECT_EQ(undo.next_undo(), "switch off direct");
     undo.undo();

@@ -143,7 +143,7 @@ class Pictures(ProgramTest):
         self.assertTrue((folder / "x.png").exists(), "a % in a folder's name numbers nothing")
 
     def test_a_resource_of_a_pass_that_is_off_switches_it_on(self):
-        small = ("--graph", "lrsm_tuned", "--set", "occlusion_voxels.resolution=32", "--set", "rsm.resolution=64", "--set", "gather.most_steps=32")
+        small = ("--graph", "lrsm_tuned", "--set", "occlusion_voxels.resolution=32", "--set", "rsm.resolution=64", "--set", "gather.max_steps=32")
         self.render("x.png", *small, "--set", "inspect.pixel=0.5,0.9", "--resource", "debug.cones_view")
         self.render("y.png", *small, "--set", "inspect.pixel=0.5,0.9", "--resource", "debug.cones_view", "--enable", "view_cones")
         self.assertEqual((self.out / "x.png").read_bytes(), (self.out / "y.png").read_bytes())
@@ -159,7 +159,7 @@ class Pictures(ProgramTest):
         timings = json.loads((self.out / "t.json").read_text())
         self.assertEqual([p["id"] for p in timings["passes"]], ["gbuffer", "shadow_maps", "direct", "compose", "tonemap"])
         self.assertEqual(timings["passes"][0]["frames"], 3)
-        self.assertEqual(timings["declined"][0]["id"], "emission")
+        self.assertEqual(timings["skipped"][0]["id"], "emission")
         self.assertEqual(sum(timings["resources"].values()), timings["total_bytes"])
         self.assertEqual(self.render("y.png", "--quiet").stdout, "")
 

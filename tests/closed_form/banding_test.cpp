@@ -36,7 +36,7 @@ class Banding : public GpuTest {
         options.size = glm::ivec2(k_width, k_height);
         options.sets = {{"voxelization.resolution", "64"},
                         {"voxelization.averaging", "sum"},
-                        {"gather.most_steps", "512"},
+                        {"gather.max_steps", "512"},
                         {"gather.cone_step", fmt::format("{}", step)},
                         {"gather.dithered_start", dithered ? "true" : "false"}};
         Session session(options);

@@ -260,7 +260,7 @@ void main() {
                 {{"id":"fill","type":"compute","shader":"test/fill.comp","bind":{{"test.volume":"dvs.base"}}}},
                 {{"id":"fill_directional","type":"compute","shader":"test/fill.comp","bind":{{"test.volume":"dvs.directional"}}}},
                 {{"id":"cones","type":"compute","shader":"test/cones.comp","dispatch":[4,1,1],
-                  "params":{{"most_steps":{3},"cone_step":1,"ambient_decay":0.4,"direction_weights":"squared"}}}}])",
+                  "params":{{"max_steps":{3},"cone_step":1,"ambient_decay":0.4,"direction_weights":"squared"}}}}])",
                             2 * tile, 3 * tile, tile, steps);
             SceneRunner run(tilted(), {directional_light({0, -1, 0}, {1, 1, 1})}, graph_file(graph));
             run.frame();

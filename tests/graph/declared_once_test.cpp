@@ -36,8 +36,8 @@ std::string node(const std::string& id, const std::string& more = "") {
 }
 
 std::string reason(const Plan& plan, const std::string& id) {
-    for (const PlanDecline& declined : plan.declined)
-        if (declined.id == id) return declined.reason;
+    for (const PlanSkip& skipped : plan.skipped)
+        if (skipped.id == id) return skipped.reason;
     return "";
 }
 
@@ -192,5 +192,5 @@ TEST_F(DeclaredOnce, WhatOnlySwitchedOffPassesReadIsDropped) {
     EXPECT_THAT(order(p), ElementsAre("rest"));
     EXPECT_EQ(reason(p, "shows"), "switched off");
     for (const char* id : {"first", "again", "other"})
-        EXPECT_EQ(reason(p, id), "only declined passes read what it makes") << id;
+        EXPECT_EQ(reason(p, id), "only skipped passes read what it makes") << id;
 }

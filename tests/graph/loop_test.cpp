@@ -23,9 +23,9 @@ class CratePass : public Pass {
         d.writes("crate.items", Usage::storage);
         d.writes("crate.counts", Usage::storage);
         d.counts("items", "crate.counts", 0);
-        d.counts("items without room", "crate.counts", 1, true);
+        d.counts("dropped items", "crate.counts", 1, true);
     }
-    bool outgrown(const std::vector<int64_t>& counted) override {
+    bool needs_larger_buffers(const std::vector<int64_t>& counted) override {
         told.push_back(counted);
         if (counted[1] <= 0) return false;
         room_ = int(std::min<int64_t>(counted[0], 2 * room_)); // needs several tries
@@ -142,7 +142,7 @@ TEST_F(Loops, PassesGrowUntilTheyHaveRoom) {
     CratePass::told.clear();
     run.frame();
     int tries = 0;
-    while (run.graph.outgrown() && tries < 10) {
+    while (run.graph.needs_larger_buffers() && tries < 10) {
         ++tries;
         run.frame();
     }
@@ -157,5 +157,5 @@ TEST_F(Loops, PassesGrowUntilTheyHaveRoom) {
     for (int i = 0; i < 12; ++i)
         run.frame();
     EXPECT_EQ(run.graph.buffer("crate.items")->bytes(), 9u * 4u);
-    EXPECT_FALSE(run.graph.outgrown());
+    EXPECT_FALSE(run.graph.needs_larger_buffers());
 }

@@ -1,4 +1,4 @@
-// Order, declines, sizes and names of a plan. No OpenGL.
+// Order, skipped passes, sizes and names of a plan. No OpenGL.
 #include "graph/graph_test.h"
 
 #include "graph/plan.h"
@@ -17,7 +17,9 @@ class LampPass : public Pass {
     void describe(PassDescription& description) override {
         description.parameters.add("detail", detail_, {1, 64}, "texels", "width of its map");
     }
-    std::string unneeded(const SceneFacts& facts) const override { return facts.lights() ? "" : "there is no light"; }
+    std::string skip_reason(const SceneFacts& facts) const override {
+        return facts.lights() ? "" : "there is no light";
+    }
     void declare(Declaration& d) override {
         d.creates("lamp.map", ResourceKind::texture_2d, "r16f", {detail_, 4}).neutral = glm::vec4(1);
         d.writes("lamp.map", Usage::colour);
@@ -45,8 +47,8 @@ SceneFacts one_light() {
 }
 
 std::string reason(const Plan& plan, const std::string& id) {
-    for (const PlanDecline& declined : plan.declined)
-        if (declined.id == id) return declined.reason;
+    for (const PlanSkip& skipped : plan.skipped)
+        if (skipped.id == id) return skipped.reason;
     return "";
 }
 
@@ -118,9 +120,9 @@ TEST_F(PlanTest, DeclinesSpreadToWhatOnlyTheyFeedAndWhatOnlyFeedsThem) {
     Plan dark = plan(members);
     EXPECT_THAT(order(dark), ElementsAre("show"));
     EXPECT_EQ(reason(dark, "test_lamp"), "there is no light");
-    EXPECT_THAT(reason(dark, "after"), HasSubstr("comes from declined passes"));
+    EXPECT_THAT(reason(dark, "after"), HasSubstr("comes from skipped passes"));
     EXPECT_EQ(reason(dark, "needy"), "requires emissive materials");
-    EXPECT_THAT(reason(dark, "feeder"), HasSubstr("only declined passes read"));
+    EXPECT_THAT(reason(dark, "feeder"), HasSubstr("only skipped passes read"));
     EXPECT_EQ(dark.find_resource("lamp.map"), nullptr) << "what nobody makes takes no memory";
     EXPECT_EQ(dark.passes[0].find("lamp.map")->resource, -1);
     EXPECT_EQ(dark.passes[0].find("lamp.map")->neutral, glm::vec4(1));

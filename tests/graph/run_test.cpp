@@ -184,7 +184,7 @@ TEST_F(Running, SlotsAreBoundToOtherResources) {
     EXPECT_THAT(run.read("a.two"), Each(2));
 }
 
-/// The consumer of a declined pass reads the neutral value at every texel, by fetch as by filter.
+/// The consumer of a skipped pass reads the neutral value at every texel, by fetch as by filter.
 TEST_F(Running, ConsumersOfADeclinedPassReadItsNeutralValue) {
     fill_shader("ao.comp", "a_occlusion", "0.25");
     fill_shader("use.comp", "out_display",

@@ -77,7 +77,7 @@ glm::vec3 heat_colour(float alpha) {
 
 TEST_F(DebugViews, AreOffAndCostNothingUntilAskedFor) {
     for (const char* graph : {"lrsm", "lrsm_tuned"}) {
-        open(graph, {{"gather.most_steps", "1"}}, {});
+        open(graph, {{"gather.max_steps", "1"}}, {});
         for (const std::string& name : session->graph().plan().resource_names())
             EXPECT_FALSE(name.starts_with("debug.")) << graph << " makes " << name;
         const GraphModel& model = session->graph().model();
@@ -92,7 +92,7 @@ TEST_F(DebugViews, AreOffAndCostNothingUntilAskedFor) {
 
 /// The nearest box among all voxels that hold something is the one that the ray's walk ends at.
 TEST_F(DebugViews, CubesAreTheNearestVoxels) {
-    open("lrsm_tuned", {{"gather.most_steps", "1"}, {"view_cubes.edges", "0"}}, {"view_cubes"});
+    open("lrsm_tuned", {{"gather.max_steps", "1"}, {"view_cubes.edges", "0"}}, {"view_cubes"});
     const FrameConstants& c = session->constants();
     VoxelGrid grid(session->facts().bounds_over_animation, 32);
     struct Case {
@@ -119,7 +119,7 @@ TEST_F(DebugViews, CubesAreTheNearestVoxels) {
 }
 
 TEST_F(DebugViews, SlicesAreTheVoxels) {
-    open("lrsm_tuned", {{"gather.most_steps", "1"}, {"view_slice.mip", "1"}, {"view_slice.at", "0.3"}}, {"view_slice"});
+    open("lrsm_tuned", {{"gather.max_steps", "1"}, {"view_slice.mip", "1"}, {"view_slice.at", "0.3"}}, {"view_slice"});
     std::vector<float> voxels = texture("voxels.occlusion").read(1);
     for (int axis = 0; axis < 3; ++axis) {
         set("view_slice.axis", std::string(1, "xyz"[axis]));
@@ -143,7 +143,7 @@ TEST_F(DebugViews, SlicesAreTheVoxels) {
 
 TEST_F(DebugViews, MosaicShowsEachLayersTexels) {
     open("lrsm",
-         {{"gather.most_steps", "1"},
+         {{"gather.max_steps", "1"},
           {"view_mosaic.tile", "32"},
           {"lrsm_layers.depth_layers", "4"},
           {"lrsm_layers.skip_empty", "1"}},
@@ -213,7 +213,7 @@ TEST_F(DebugViews, RecordedConesAreThoseOfTheGather) {
                 ConeRecords records;
                 std::memcpy(&records, bytes.data(), sizeof records);
                 std::vector<RecordedSphere> spheres((bytes.size() - sizeof records) / sizeof(RecordedSphere));
-                ASSERT_EQ(spheres.size(), size_t(k_most_recorded_cones) * k_most_recorded_spheres);
+                ASSERT_EQ(spheres.size(), size_t(k_max_recorded_cones) * k_max_recorded_spheres);
                 std::memcpy(spheres.data(), bytes.data() + sizeof records, spheres.size() * sizeof(RecordedSphere));
 
                 const InspectedPixel& at = records.inspected;
@@ -239,7 +239,7 @@ TEST_F(DebugViews, RecordedConesAreThoseOfTheGather) {
                     sum += cone.weight * glm::vec4(cone.radiance, cone.occlusion);
                     weights += cone.weight;
                     EXPECT_NEAR(glm::length(cone.direction), 1, 1e-4f);
-                    ASSERT_EQ(cone.kept, std::min(cone.spheres, k_most_recorded_spheres));
+                    ASSERT_EQ(cone.kept, std::min(cone.spheres, k_max_recorded_spheres));
                     if (cone.kept < cone.spheres) continue;
                     glm::vec3 light(0);
                     float taken = 0, before = -1;

@@ -167,7 +167,7 @@ TEST_F(Passes, RunOnASceneThatNeedsNoneOfThem) {
             ADD_FAILURE() << graph << ": " << problem.error.text();
         EXPECT_TRUE(session.graph().non_finite().empty()) << graph;
         EXPECT_THAT(session.graph().texture("out.radiance")->read(0), testing::Contains(0)) << graph;
-        EXPECT_FALSE(session.graph().plan().declined.empty()) << graph;
+        EXPECT_FALSE(session.graph().plan().skipped.empty()) << graph;
     }
 }
 
@@ -181,7 +181,7 @@ TEST_F(Passes, PublishedGraphsFitTheLimitsThatEveryDriverHas) {
         Session session(options);
         for (const auto& node : session.graph().model().nodes()) {
             for (const auto& program : node->programs) {
-                if (!program->usable()) continue; // of a declined pass
+                if (!program->usable()) continue; // of a skipped pass
                 std::string where = graph + ": " + node->id() + "/" + program->name();
                 const ProgramInterface& interface = program->interface();
                 int samplers = 0, images = 0;

@@ -31,7 +31,7 @@ class VoxelViews : public GpuTest {
             R"(,"objects":[{"scene":"box.gltf","path":[{"t":0,"position":[0,0,0]},{"t":1,"position":[0.3,0,0]}]}])");
         options.graph = graph;
         options.size = {48, 40};
-        options.sets = {{"voxelization.resolution", "32"}, {"gather.most_steps", "1"}, {"view_cubes.edges", "0"}};
+        options.sets = {{"voxelization.resolution", "32"}, {"gather.max_steps", "1"}, {"view_cubes.edges", "0"}};
         options.sets.insert(options.sets.end(), sets.begin(), sets.end());
         options.resource = "debug.voxels";
         session = std::make_unique<Session>(options);

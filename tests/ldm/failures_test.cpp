@@ -38,7 +38,7 @@ class LdmFailures : public SceneGraphTest {
         r->camera = camera;
         do {
             r->frame();
-        } while (r->graph.outgrown());
+        } while (r->graph.needs_larger_buffers());
         return r;
     }
     void note(const std::string& what, double value) { RecordProperty(what, std::to_string(value)); }

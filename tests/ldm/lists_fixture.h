@@ -253,7 +253,7 @@ class LdmTest : public SceneGraphTest {
     static int whole_frame(SceneRunner& run) {
         run.frame();
         int grown = 0;
-        while (run.graph.outgrown() && grown < 8) {
+        while (run.graph.needs_larger_buffers() && grown < 8) {
             ++grown;
             run.frame();
         }

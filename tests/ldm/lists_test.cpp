@@ -244,12 +244,12 @@ TEST_F(LayeredDepthMaps, GrowUntilNothingIsLost) {
         SceneRunner much(blocks(), {}, graph_file(k_maps_alone), ample),
             little(blocks(), {}, graph_file(k_maps_alone), scarce);
         much.frame();
-        EXPECT_FALSE(much.graph.outgrown());
-        EXPECT_EQ(counter(much, "fragments without room"), 0);
+        EXPECT_FALSE(much.graph.needs_larger_buffers());
+        EXPECT_EQ(counter(much, "dropped fragments"), 0);
 
         little.frame();
-        EXPECT_TRUE(little.graph.outgrown());
-        int64_t lost = counter(little, "fragments without room");
+        EXPECT_TRUE(little.graph.needs_larger_buffers());
+        int64_t lost = counter(little, "dropped fragments");
         int64_t wanted = counter(little, "fragments of all maps");
         EXPECT_GT(lost, 1000);
         EXPECT_EQ(wanted, counter(much, "fragments of all maps")) << "also those without room are counted";
@@ -258,7 +258,7 @@ TEST_F(LayeredDepthMaps, GrowUntilNothingIsLost) {
         EXPECT_LT(LdmLists(little).canonical().size(), LdmLists(much).canonical().size());
 
         whole_frame(little);
-        EXPECT_EQ(counter(little, "fragments without room"), 0);
+        EXPECT_EQ(counter(little, "dropped fragments"), 0);
         EXPECT_EQ(LdmLists(little).canonical(), LdmLists(much).canonical());
         EXPECT_GE(LdmLists(little).info.capacity, wanted);
         EXPECT_LT(LdmLists(little).info.capacity, 1.2 * double(wanted)) << "no more than is needed";
@@ -280,7 +280,7 @@ TEST_F(LayeredDepthMaps, InBatchesGiveTheSameOcclusion) {
         for (SceneRunner* run : {&whole, &parts, &from_little}) {
             run->camera = towards_blocks();
             whole_frame(*run);
-            EXPECT_EQ(counter(*run, "fragments without room"), 0);
+            EXPECT_EQ(counter(*run, "dropped fragments"), 0);
         }
         EXPECT_EQ(LdmLists(whole).info.batches, 1);
         int batches = LdmLists(parts).info.batches;

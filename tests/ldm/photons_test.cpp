@@ -55,7 +55,7 @@ class Photons : public SceneGraphTest {
         runner->camera = looking_at_it();
         do {
             runner->frame();
-        } while (runner->graph.outgrown());
+        } while (runner->graph.needs_larger_buffers());
         return runner;
     }
     static std::vector<Photon> stored(const SceneRunner& run) {
@@ -115,24 +115,24 @@ TEST_F(Photons, DifferentialsSpanTheTexelOnTheSurface) {
 TEST_F(Photons, NoFluxIsLostUnaccounted) {
     auto r = run(floor_and_wall());
     std::vector<Emitter> emitters = r->read_buffer<Emitter>("photons.emitters");
-    std::vector<uint32_t> fates = r->read_buffer<uint32_t>("photons.fates");
-    ASSERT_EQ(fates.size(), emitters.size() * 32) << "one batch";
+    std::vector<uint32_t> outcomes = r->read_buffer<uint32_t>("photons.outcomes");
+    ASSERT_EQ(outcomes.size(), emitters.size() * 32) << "one batch";
     std::vector<glm::vec3> axes = ldm_directions(32);
-    double reflected = 0, by_fate[5] = {}, carried = 0;
+    double reflected = 0, by_outcome[5] = {}, carried = 0;
     for (size_t e = 0; e < emitters.size(); ++e) {
         if (emitters[e].pitch_texel <= 0) continue;
         double cosines = 0;
         for (size_t slot = 0; slot < axes.size(); ++slot) {
             double cosine = std::abs(glm::dot(tilt_off_axes() * axes[slot], emitters[e].normal));
             cosines += cosine;
-            by_fate[fates[slot * emitters.size() + e]] += cosine * double(emitters[e].flux.g);
+            by_outcome[outcomes[slot * emitters.size() + e]] += cosine * double(emitters[e].flux.g);
         }
         reflected += cosines * double(emitters[e].flux.g);
     }
     for (const Photon& photon : stored(*r))
         carried += double(photon.flux.g);
-    double left = by_fate[int(PhotonFate::left)], unseen = by_fate[int(PhotonFate::unseen)],
-           wide = by_fate[int(PhotonFate::too_wide)];
+    double left = by_outcome[int(PhotonFate::left)], unseen = by_outcome[int(PhotonFate::unseen)],
+           wide = by_outcome[int(PhotonFate::too_wide)];
     EXPECT_GT(carried, 0.05 * reflected);
     EXPECT_GT(left, 0.2 * reflected); // the scene is open
     EXPECT_NEAR(carried / (reflected - left - unseen - wide), 1, 1e-3);
@@ -209,7 +209,7 @@ TEST_F(Photons, AGuardBandKeepsTheLightOfThePicturesBorders) {
         runner.camera.vfov = float(2 * std::atan(tangent));
         do {
             runner.frame();
-        } while (runner.graph.outgrown());
+        } while (runner.graph.needs_larger_buffers());
         return runner.read("out.indirect_diffuse");
     };
     const glm::ivec2 size(64, 48);

@@ -18,7 +18,7 @@ using Sets = std::vector<std::pair<std::string, std::string>>;
 /// Departures from the paper, as lrsm_tuned has them.
 const Sets k_tuned{
     {"gather.cone_set", "spiral"},         {"gather.spiral_cones", "16"},       {"gather.aperture", "4"},
-    {"gather.hit_then_sample", "true"},    {"gather.most_steps", "300"},        {"gather.estimator", "lit_fraction"},
+    {"gather.hit_then_sample", "true"},    {"gather.max_steps", "300"},         {"gather.estimator", "lit_fraction"},
     {"gather.normalised_normals", "true"}, {"gather.layers_by_sphere", "true"}, {"gather.depth_window", "2"}};
 
 struct Gathered {

@@ -74,7 +74,7 @@ class LayersOracle {
                     action(view, d, k);
     }
     static size_t table_index(int view, int d, int k) {
-        return size_t((view * k_most_depth_layers + d) * k_most_normal_layers + k);
+        return size_t((view * k_max_depth_layers + d) * k_max_normal_layers + k);
     }
 
   private:

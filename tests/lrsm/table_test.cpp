@@ -29,10 +29,10 @@ TEST_F(LayerTable, HoldsEveryLayerOnceWhenNoneIsSkipped) {
                     {{"lrsm_layers.depth_layers", "3"}, {"lrsm_layers.normal_layers", "2"}});
     run.frame();
     std::vector<int> table = run.read_buffer<int>("lrsm.table"), summary = run.read_buffer<int>("lrsm.summary");
-    ASSERT_EQ(table.size(), size_t(8 * k_most_depth_layers * k_most_normal_layers));
+    ASSERT_EQ(table.size(), size_t(8 * k_max_depth_layers * k_max_normal_layers));
     std::set<int> places;
     for (size_t i = 0; i < table.size(); ++i) {
-        bool wanted = int(i) / k_most_normal_layers % k_most_depth_layers < 3 && int(i) % k_most_normal_layers < 2;
+        bool wanted = int(i) / k_max_normal_layers % k_max_depth_layers < 3 && int(i) % k_max_normal_layers < 2;
         EXPECT_EQ(table[i] >= 0, wanted) << i;
         if (table[i] >= 0) {
             EXPECT_TRUE(places.insert(table[i]).second) << "place " << table[i] << " given twice";

@@ -117,7 +117,7 @@ TEST_F(StateFiles, AnInterruptedRenderResumesToTheSameBytes) {
     ReferenceRender second(shot, {});
     second.load_state(folder / "a.state");
     EXPECT_EQ(second.samples(), first.samples());
-    EXPECT_EQ(second.most_samples(), first.most_samples());
+    EXPECT_EQ(second.max_samples(), first.max_samples());
     EXPECT_TRUE(second.render_to(24));
     EXPECT_TRUE(same_bytes(whole, second));
 }
@@ -158,7 +158,7 @@ TEST(Render, CancellingKeepsWhatIsDone) {
     EXPECT_FALSE(render.render_to(1000));
     EXPECT_GE(render.samples(), 4);
     EXPECT_LT(render.samples(), 1000);
-    EXPECT_TRUE(render.render_to(render.most_samples() + 1));
+    EXPECT_TRUE(render.render_to(render.max_samples() + 1));
 }
 
 TEST(Render, PartsAddUpAndAreNamed) {

@@ -76,6 +76,12 @@ class Layers(unittest.TestCase):
         found = violations(tree.ROOT, tree.files())
         self.assertFalse(found, "\n" + "\n".join(found))
 
+    def test_techniques_leave_barriers_to_the_graph(self):
+        """A pass says c.barrier(), so that one place knows what waits for what."""
+        raw = [str(path) for path in tree.files() if path.suffix == ".cpp" and path.parts[0] == "passes"
+               and layer_of(path) not in (None, *BELOW_TECHNIQUES) and "glMemoryBarrier" in (tree.ROOT / path).read_text()]
+        self.assertFalse(raw, "use PassContext::barrier()")
+
     def check(self, source, name, ok):
         """Whether an include of `name` in `source` is found fault with, in a small tree of its own."""
         with tempfile.TemporaryDirectory() as folder:

@@ -32,19 +32,19 @@ static std::string requirement_text(std::string needs) {
 
 static void judge_needs(Declared& pass, const PlanSizes& sizes, ErrorList& errors) {
     const std::string& needs = pass.node->entry.needs;
-    if (!pass.declined.empty() || needs.empty()) return;
+    if (!pass.skipped.empty() || needs.empty()) return;
     try {
-        if (evaluate(needs, sizes.names()) == 0) pass.declined = requirement_text(needs);
+        if (evaluate(needs, sizes.names()) == 0) pass.skipped = requirement_text(needs);
     } catch (const Error& error) {
         errors.add(fmt::format("pass '{}': 'needs': {}", pass.node->id(), error.what()));
     }
 }
 
 /// Readers of what a pass that does not run would have made get what it names instead.
-static void stand_in(PlanDraft& draft) {
+static void use_fallbacks(PlanDraft& draft) {
     for (const Declared& gone : draft.passes) {
-        if (gone.declined.empty()) continue;
-        for (const auto& [made, instead] : gone.node->pass->stand_ins()) {
+        if (gone.skipped.empty()) continue;
+        for (const auto& [made, instead] : gone.node->pass->fallbacks()) {
             std::string from = gone.node->target_of(made).resource, to = gone.node->target_of(instead).resource;
             for (Declared& pass : draft.passes) {
                 for (size_t i = 0; i < pass.uses.size(); ++i)
@@ -59,24 +59,24 @@ static bool makes_the_picture(const Declared& pass) {
                        [](auto& t) { return t.resource == "out.radiance" || t.resource == "out.display"; });
 }
 
-/// Everything that this pass reads from the graph comes from declined passes.
+/// Everything that this pass reads from the graph comes from skipped passes.
 static bool is_starved(const PlanDraft& draft, const Declared& pass) {
     bool any = false;
     for (size_t i = 0; i < pass.uses.size(); ++i) {
         const SlotUse& use = pass.uses[i];
         if (!use.reads || use.writes || is_builtin(use.slot) || pass.targets[i].previous) continue;
         if (use.optional && !draft.has_writer(pass.targets[i].resource)) continue;
-        if (!draft.all_writers_declined(pass.targets[i].resource)) return false;
+        if (!draft.all_writers_skipped(pass.targets[i].resource)) return false;
         any = true;
     }
     return any;
 }
 
-static bool decline_starved(PlanDraft& draft) {
+static bool skip_starved(PlanDraft& draft) {
     bool changed = false;
     for (Declared& pass : draft.passes) {
-        if (!pass.declined.empty() || makes_the_picture(pass) || !is_starved(draft, pass)) continue;
-        pass.declined = "all that it reads comes from declined passes";
+        if (!pass.skipped.empty() || makes_the_picture(pass) || !is_starved(draft, pass)) continue;
+        pass.skipped = "all that it reads comes from skipped passes";
         changed = true;
     }
     return changed;
@@ -107,7 +107,7 @@ static std::vector<Declared*> unread_passes(PlanDraft& draft) {
     std::vector<Declared*> rest;
     std::vector<const Declared*> open; // wanted ones whose sources are not found yet
     for (Declared& pass : draft.passes) {
-        if (!pass.declined.empty()) continue;
+        if (!pass.skipped.empty()) continue;
         if (is_wanted(draft, pass))
             open.push_back(&pass);
         else
@@ -123,29 +123,27 @@ static std::vector<Declared*> unread_passes(PlanDraft& draft) {
     return rest;
 }
 
-/// Declines those of them that declined passes read, directly or through others: also where they feed one another.
-static bool decline_unread(PlanDraft& draft) {
+/// Skips those of them that skipped passes read, directly or through others: also where they feed one another.
+static bool skip_unread(PlanDraft& draft) {
     std::vector<Declared*> rest = unread_passes(draft);
     bool any = false;
     for (bool changed = true; changed;) {
         changed = false;
         for (Declared* pass : rest) {
-            auto is_gone = [&](const Declared& reader) {
-                return !reader.declined.empty() && reads_from(reader, *pass);
-            };
-            if (!pass->declined.empty() || std::none_of(draft.passes.begin(), draft.passes.end(), is_gone)) continue;
-            pass->declined = "only declined passes read what it makes";
+            auto is_gone = [&](const Declared& reader) { return !reader.skipped.empty() && reads_from(reader, *pass); };
+            if (!pass->skipped.empty() || std::none_of(draft.passes.begin(), draft.passes.end(), is_gone)) continue;
+            pass->skipped = "only skipped passes read what it makes";
             any = changed = true;
         }
     }
     return any;
 }
 
-void decline_passes(PlanDraft& draft, PlanSizes& sizes, ErrorList& errors) {
+void skip_passes(PlanDraft& draft, PlanSizes& sizes, ErrorList& errors) {
     for (Declared& pass : draft.passes)
         judge_needs(pass, sizes, errors);
-    stand_in(draft);
-    while (decline_starved(draft) || decline_unread(draft)) {
+    use_fallbacks(draft);
+    while (skip_starved(draft) || skip_unread(draft)) {
     }
 }
 
