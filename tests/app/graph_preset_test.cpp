@@ -82,7 +82,7 @@ TEST_F(GraphPreset, OverItsOwnFileKeepsWhatAPersonWroteThere) {
     save_graph_preset(session, "mine", true);
     EXPECT_EQ(root.read("assets/graphs/mine.json"),
               "// Mine.\n{\n  \"version\": 1, \"extends\": \"direct\",\n  \"passes\": [\n"
-              "    // Bright.\n    { \"id\": \"tonemap\", \"params\": { \"exposure\": 3.0 } }, // two stops\n"
+              "    // Bright.\n    { \"id\": \"tonemap\", \"params\": { \"exposure\": 3 } }, // two stops\n"
               "    { \"id\": \"shadow_maps\", \"params\": { \"resolution\": 256 } },\n"
               "    { \"id\": \"emission\", \"enabled\": false }\n  ]\n}\n");
     EXPECT_EQ(values(GraphModel(read_graph_file(graph("mine")))), values(session.graph().model()));
