@@ -1,6 +1,7 @@
 #include "core/image_budget.h"
 
 #include "core/error.h"
+#include "core/jpeg_check.h"
 #include "core/limits.h"
 
 #include <algorithm>
@@ -26,7 +27,8 @@ uint64_t pixels_per_byte(bool png, bool jpeg) {
 } // namespace
 
 DeclaredSize declared_size(const uint8_t* data, size_t size, const std::string& what) {
-    const bool png = begins(data, size, "\x89PNG\r\n\x1a\n", 8), jpeg = begins(data, size, "\xff\xd8\xff", 3);
+    const bool png = begins(data, size, "\x89PNG\r\n\x1a\n", 8), jpeg = is_jpeg(data, size);
+    if (jpeg) check_jpeg(data, size, what);
     // Formats that no scene needs, and whose decoders have seen few files.
     const bool other = begins(data, size, "GIF8", 4) || begins(data, size, "8BPS", 4) ||
                        begins(data, size, "\x53\x80\xF6\x34", 4) || begins(data, size, "#?", 2) ||

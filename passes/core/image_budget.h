@@ -20,8 +20,9 @@ class DeclaredSizeError : public Error {
     using Error::Error;
 };
 
-/// The size in the header of a PNG, JPEG, BMP or TGA. Throws Error that begins with `what` when it is none of those,
-/// and DeclaredSizeError when a side is above k_max_picture_side or the file is too short to hold so many pixels.
+/// The size in the header of a PNG, JPEG, BMP or TGA. Throws Error that begins with `what` when it is none of those
+/// or a JPEG that check_jpeg refuses, and DeclaredSizeError when a side is above k_max_picture_side or the file is too
+/// short to hold so many pixels.
 DeclaredSize declared_size(const uint8_t* data, size_t size, const std::string& what);
 
 /// Throws Error that begins with `what` when `pixels` are more than max_texture_pixels().
