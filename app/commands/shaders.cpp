@@ -17,15 +17,13 @@ namespace fs = std::filesystem;
 
 /// Formats as the file's resources and the passes' declarations have them do not matter to a compiler's judgement of
 /// the rest, but the layout qualifier must be one that goes with the image's type.
-Defines formats_for(const Program& program) {
-    Defines formats;
+void add_formats(const Program& program, Defines& formats) {
     for (const ShaderSlot& slot : program.slots()) {
         if (slot.kind != SlotKind::image) continue;
         bool integer = slot.type.starts_with("u"),
              is_signed = slot.type.starts_with("i") && !slot.type.starts_with("image");
         formats["FORMAT_" + slot.identifier] = integer ? "r32ui" : is_signed ? "r32i" : "rgba16f";
     }
-    return formats;
 }
 
 int expand_all(const std::string& folder) {
@@ -36,8 +34,11 @@ int expand_all(const std::string& folder) {
         if (entry.path().extension() != ".json") continue;
         GraphModel model(read_graph_file(entry.path()));
         for (const auto& node : model.nodes()) {
+            Defines formats;
+            for (const auto& program : node->programs)
+                add_formats(*program, formats);
+            model.scan(*node, formats);
             for (const auto& program : node->programs) {
-                program->scan(formats_for(*program), model.static_values(*node));
                 if (!program->errors().empty()) throw Error(program->errors().front().text());
                 for (size_t i = 0; i < program->sources().size(); ++i) {
                     std::string name = program->stages()[i].string();
@@ -61,7 +62,9 @@ int expand_all(const std::string& folder) {
         if (std::any_of(done.begin(), done.end(), [&](auto& d) { return d.ends_with("." + name); })) continue;
         Program program("alone", {stage}, glsl_folder());
         program.scan({}, {});
-        program.scan(formats_for(program), {});
+        Defines formats;
+        add_formats(program, formats);
+        program.scan(formats, {});
         if (!program.errors().empty()) throw Error(program.errors().front().text());
         write_file_atomically(fs::path(folder) / ("alone." + name), program.sources().front().text);
         ++count;
