@@ -28,6 +28,15 @@ const std::vector<GpuLight>& PassContext::lights() const {
 const std::vector<Material>& PassContext::materials() const {
     return scene({ScenePart::materials}).material_list();
 }
+const Revision& PassContext::revision(ScenePart part) const {
+    return scene({part}).revision(part);
+}
+std::vector<Vertex> PassContext::read_vertices() const {
+    return scene({ScenePart::geometry}).vertices().read_all<Vertex>();
+}
+std::vector<uint32_t> PassContext::read_indices() const {
+    return scene({ScenePart::geometry}).indices().read_all<uint32_t>();
+}
 
 const PlanSlot& PassContext::slot(const std::string& name) const {
     if (const PlanSlot* found = pass_.find(name)) return *found;

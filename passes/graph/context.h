@@ -54,6 +54,10 @@ class PassContext {
     const std::vector<GpuDraw>& draws() const;
     const std::vector<GpuLight>& lights() const;
     const std::vector<Material>& materials() const;
+    const Revision& revision(ScenePart part) const;
+    /// Copies of what was uploaded, read back: for what is built on the CPU and kept. Stalls.
+    std::vector<Vertex> read_vertices() const;
+    std::vector<uint32_t> read_indices() const;
     const PlanPass& plan() const { return pass_; }
 
     /// The whole texture or buffer behind a slot. Throws Error when the slot has none (a declined producer).
