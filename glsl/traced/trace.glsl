@@ -56,6 +56,7 @@ void trace_tree(uint root, uint root_draw, uvec4 place, vec3 origin, vec3 direct
     bool going = true;
     while (going) {
         TracedHit unsure; // whose alpha is to be looked at: outside of the inner loops, which all rays run
+        uint record = 0u;
         unsure.draw = k_nothing;
         while (going && unsure.draw == k_nothing) {
             if (at == end) {
@@ -71,8 +72,12 @@ void trace_tree(uint root, uint root_draw, uvec4 place, vec3 origin, vec3 direct
                 found.draw = root_draw == k_nothing ? carried.x : root_draw;
                 found.corner = carried.y;
                 if (met && is_before(found, hit)) {
-                    if ((carried.z & 1u) != 0u) unsure = found;
+#ifdef HAS_traced_alpha
+                    if (carried.z != 0u) unsure = found, record = carried.z;
                     else hit = found;
+#else
+                    hit = found;
+#endif
                 }
                 at += 3u;
 #ifdef TRACED_COUNTS
@@ -81,10 +86,12 @@ void trace_tree(uint root, uint root_draw, uvec4 place, vec3 origin, vec3 direct
             }
             if (any && hit.draw != k_nothing) going = false;
         }
-        if (unsure.draw != k_nothing && triangle_is_there(unsure.draw, unsure.corner, unsure.uv, seed)) {
+#ifdef HAS_traced_alpha
+        if (unsure.draw != k_nothing && triangle_is_there(record, unsure.draw, unsure.corner, unsure.uv, seed)) {
             hit = unsure;
             going = going && !any;
         }
+#endif
     }
 }
 

@@ -39,24 +39,23 @@ class BvhPass : public Pass {
         const auto triangles = double(d.fact(&SceneFacts::triangles));
         const uint64_t roots =
             1 + (share_all_ ? d.fact(&SceneFacts::instances) : d.fact(&SceneFacts::dynamic_instances));
-        // Nodes differ from scene to scene; few have more than one for each triangle.
-        const double per_triangle = 3 + (wide_nodes_ ? 3.0 : 8.0);
-        const double wanted = std::max(double(top_texels(roots)) + std::ceil(triangles * per_triangle) + 4096, grown_);
-        capacity_ = int64_t(wanted);
+        alpha_ = d.fact(&SceneFacts::alpha_tested_materials) + d.fact(&SceneFacts::blended_materials) > 0;
+        // A triangle takes three texels. Nodes differ from scene to scene; few have more than one for two triangles.
+        const double per_triangle = 3 + (wide_nodes_ ? 1.5 : 4.0);
+        tree_capacity_ =
+            std::max(int64_t(top_texels(roots)) + int64_t(std::ceil(triangles * per_triangle)) + 4096, tree_grown_);
         if (wide_nodes_) {
-            check(capacity_ * int64_t(sizeof(Texel)), limit_of(GL_MAX_SHADER_STORAGE_BLOCK_SIZE), "bytes of a buffer",
-                  triangles);
-            d.creates_buffer("traced.nodes", std::to_string(capacity_), sizeof(Texel)).incremental = true;
+            check(tree_capacity_ * int64_t(sizeof(Texel)), limit_of(GL_MAX_SHADER_STORAGE_BLOCK_SIZE),
+                  "bytes of a buffer", triangles);
+            d.creates_buffer("traced.nodes", std::to_string(tree_capacity_), sizeof(Texel)).incremental = true;
             d.writes("traced.nodes", Usage::storage);
         } else {
-            const int64_t rows = (capacity_ + k_row - 1) / k_row;
-            capacity_ = rows * k_row;
-            check(rows, limit_of(GL_MAX_TEXTURE_SIZE), "rows of a texture", triangles);
-            ResourceDeclaration& tree =
-                d.creates("traced.tree", ResourceKind::texture_2d, "rgba32ui", Extent(int(k_row), int(rows)));
-            tree.incremental = true;
-            d.writes("traced.tree", Usage::image);
+            tree_capacity_ = declare_texture(d, "traced.tree", tree_capacity_, triangles);
         }
+        // With alpha, three texels more; few scenes have more of these than a third.
+        if (alpha_)
+            alpha_capacity_ = declare_texture(d, "traced.alpha",
+                                              std::max(int64_t(std::ceil(triangles)) + 4096, alpha_grown_), triangles);
         d.creates_buffer("traced.counts", std::to_string(k_counts), 4).overwritten = true;
         d.writes("traced.counts", Usage::storage);
         d.counts("triangles in trees", "traced.counts", 0);
@@ -69,30 +68,31 @@ class BvhPass : public Pass {
 
     bool outgrown(const std::vector<int64_t>& counted) override {
         if (counted.size() < k_counts || counted[5] <= 0) return false;
-        grown_ = double(trees_.counts().texels);
+        tree_grown_ = int64_t(trees_.counts().texels);
+        alpha_grown_ = int64_t(trees_.alpha().size());
         return true;
     }
-    void forget_growth() override { grown_ = 0; }
+    void forget_growth() override { tree_grown_ = alpha_grown_ = 0; }
 
     void execute(PassContext& c) override {
         const char* const slot = wide_nodes_ ? "traced.nodes" : "traced.tree";
         const bool built = build_trees(c);
         const std::vector<Texel> top = trees_.top(c.draws());
         const TreeCounts& counts = trees_.counts();
-        const int64_t lacking = std::max<int64_t>(int64_t(counts.texels) - capacity_, 0);
-        const bool whole = built || !c.stands(slot) || lacking > 0;
+        const int64_t lacking = std::max<int64_t>(int64_t(counts.texels) - tree_capacity_, 0) +
+                                std::max<int64_t>(int64_t(trees_.alpha().size()) - (alpha_ ? alpha_capacity_ : 0), 0);
         if (lacking > 0) {
-            write(c, 0, std::vector<Texel>(k_header_texels, Texel(0))); // no root: rays meet nothing
+            write(c, slot, 0, std::vector<Texel>(k_header_texels, Texel(0))); // no root: rays meet nothing
         } else {
-            write(c, 0, top);
-            if (whole) write(c, int64_t(counts.texels - trees_.rest().size()), trees_.rest());
+            write(c, slot, 0, top);
+            if (built || !c.stands(slot) || lacked_)
+                write(c, slot, int64_t(counts.texels - trees_.rest().size()), trees_.rest());
+            if (alpha_ && (built || !c.stands("traced.alpha") || lacked_)) write(c, "traced.alpha", 0, trees_.alpha());
         }
-        const uint32_t told[k_counts] = {uint32_t(counts.triangles),
-                                         uint32_t(counts.nodes),
-                                         uint32_t(counts.depth),
-                                         uint32_t(counts.trees),
-                                         uint32_t(counts.texels * sizeof(Texel) / 1024),
-                                         uint32_t(lacking)};
+        lacked_ = lacking > 0;
+        const uint64_t bytes = (counts.texels + trees_.alpha().size()) * sizeof(Texel);
+        const uint32_t told[k_counts] = {uint32_t(counts.triangles), uint32_t(counts.nodes), uint32_t(counts.depth),
+                                         uint32_t(counts.trees),     uint32_t(bytes / 1024), uint32_t(lacking)};
         c.buffer("traced.counts").update(0, sizeof(told), told);
     }
 
@@ -106,31 +106,37 @@ class BvhPass : public Pass {
                                     grouped(uint64_t(limit))));
     }
 
+    /// Rows of texels; returns how many fit.
+    static int64_t declare_texture(Declaration& d, const char* name, int64_t texels, double triangles) {
+        const int64_t rows = (texels + k_row - 1) / k_row;
+        check(rows, limit_of(GL_MAX_TEXTURE_SIZE), "rows of a texture", triangles);
+        d.creates(name, ResourceKind::texture_2d, "rgba32ui", Extent(int(k_row), int(rows))).incremental = true;
+        d.writes(name, Usage::image);
+        return rows * k_row;
+    }
+
     /// Whether trees had to be built: anything but what moves by itself is new.
     bool build_trees(PassContext& c) {
         const TreeSettings settings{wide_nodes_ ? TreeLayout::wide : TreeLayout::threaded, leaf_size_, share_all_};
-        std::vector<bool> alpha_matters;
-        for (const Material& material : c.materials())
-            alpha_matters.push_back(material.alpha_mode != AlphaMode::opaque);
+        const std::vector<AlphaSource> alpha = alpha_sources(c.materials());
         const Revision& geometry = c.revision(ScenePart::geometry);
-        if (known_ && geometry == geometry_ && settings == settings_ && alpha_matters == alpha_matters_ &&
+        if (known_ && geometry == geometry_ && settings == settings_ && alpha == alpha_sources_ &&
             trees_.fits(c.draws()))
             return false;
         known_ = false; // in case it fails
-        trees_.build(c.read_vertices(), c.read_indices(), c.draws(), alpha_matters, settings);
-        geometry_ = geometry, settings_ = settings, alpha_matters_ = alpha_matters, known_ = true;
+        trees_.build(c.read_vertices(), c.read_indices(), c.draws(), alpha, settings);
+        geometry_ = geometry, settings_ = settings, alpha_sources_ = alpha, known_ = true;
         return true;
     }
 
-    /// Texels from `first` on. A texture is filled row by row.
-    void write(PassContext& c, int64_t first, const std::vector<Texel>& texels) const {
+    /// Texels of a slot's resource from `first` on. A texture is filled row by row.
+    static void write(PassContext& c, const std::string& slot, int64_t first, const std::vector<Texel>& texels) {
         if (texels.empty()) return;
-        if (wide_nodes_) {
-            c.buffer("traced.nodes")
-                .update(uint64_t(first) * sizeof(Texel), texels.size() * sizeof(Texel), texels.data());
+        if (slot == "traced.nodes") {
+            c.buffer(slot).update(uint64_t(first) * sizeof(Texel), texels.size() * sizeof(Texel), texels.data());
             return;
         }
-        const GLuint texture = c.texture("traced.tree").id();
+        const GLuint texture = c.texture(slot).id();
         glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
         auto part = [&](int64_t from, int64_t x, int64_t y, int64_t width, int64_t height) {
             glTextureSubImage2D(texture, 0, GLint(x), GLint(y), GLsizei(width), GLsizei(height), GL_RGBA_INTEGER,
@@ -149,13 +155,13 @@ class BvhPass : public Pass {
 
     bool wide_nodes_ = false, share_all_ = false;
     int leaf_size_ = 8;
-    int64_t capacity_ = 0;
-    double grown_ = 0;
+    bool alpha_ = false, lacked_ = false;
+    int64_t tree_capacity_ = 0, alpha_capacity_ = 0, tree_grown_ = 0, alpha_grown_ = 0;
     // What the trees were built from.
     bool known_ = false;
     Revision geometry_;
     TreeSettings settings_;
-    std::vector<bool> alpha_matters_;
+    std::vector<AlphaSource> alpha_sources_;
     SceneTrees trees_;
 };
 

@@ -1,5 +1,6 @@
 #include "traced/scene_trees.h"
 
+#include "core/digest.h"
 #include "core/error.h"
 #include "core/limits.h"
 
@@ -63,9 +64,8 @@ bool SceneTrees::shares(const GpuDraw& draw) const {
 
 void SceneTrees::add_triangles(const Sources& sources, const GpuDraw& draw, uint32_t number, bool in_world,
                                std::vector<Triangle>& triangles) const {
-    const bool alpha = sources.alpha_matters[draw.material];
     for (uint32_t i = 0; i + 2 < draw.index_count; i += 3) {
-        Triangle triangle{{}, number, draw.first_index + i, alpha};
+        Triangle triangle{{}, number, draw.first_index + i, draw.material};
         for (uint32_t k = 0; k < 3; ++k) {
             const glm::vec3& position = sources.vertices[sources.indices[triangle.first_corner + k]].position;
             triangle.corners[k] = in_world ? glm::vec3(draw.world * glm::vec4(position, 1)) : position;
@@ -74,7 +74,28 @@ void SceneTrees::add_triangles(const Sources& sources, const GpuDraw& draw, uint
     }
 }
 
-int SceneTrees::add_tree(const std::vector<Triangle>& triangles) {
+/// Returns the record's number, from 1 on.
+uint32_t SceneTrees::add_alpha(const Sources& sources, const Triangle& triangle) {
+    const AlphaSource& alpha = sources.alpha[triangle.material];
+    float values[10] = {};
+    const float s = std::sin(alpha.texture.rotation), c = std::cos(alpha.texture.rotation);
+    for (uint32_t k = 0; k < 3; ++k) {
+        const Vertex& vertex = sources.vertices[sources.indices[triangle.first_corner + k]];
+        const glm::vec2 uv =
+            (alpha.texture.uv_set == 0 ? glm::vec2(vertex.u0, vertex.v0) : glm::vec2(vertex.u1, vertex.v1)) *
+            alpha.texture.scale;
+        values[2 * k] = alpha.texture.offset.x + c * uv.x + s * uv.y;
+        values[2 * k + 1] = alpha.texture.offset.y - s * uv.x + c * uv.y;
+        values[6 + k] = alpha.alpha * glm::unpackUnorm2x16(vertex.colour_ba).y;
+    }
+    values[9] = alpha.mode == AlphaMode::mask ? alpha.cutoff : -2.0f;
+    alpha_.resize(alpha_.size() + 3);
+    std::memcpy(&alpha_[alpha_.size() - 3], values, sizeof(values));
+    alpha_.back().z = triangle.material;
+    return uint32_t(alpha_.size() / 3);
+}
+
+int SceneTrees::add_tree(const Sources& sources, const std::vector<Triangle>& triangles) {
     if (triangles.empty()) return -1;
     if (triangles.size() > k_max_tree_triangles)
         throw Error(fmt::format("invalid scene for traced rays: {} triangles in one tree: expected at most {}",
@@ -102,7 +123,8 @@ int SceneTrees::add_tree(const std::vector<Triangle>& triangles) {
         const Triangle& triangle = triangles[index];
         rest_.push_back(texel_of(triangle.corners[0], triangle.draw));
         rest_.push_back(texel_of(triangle.corners[1], triangle.first_corner));
-        rest_.push_back(texel_of(triangle.corners[2], triangle.alpha ? 1 : 0));
+        const bool opaque = sources.alpha[triangle.material].mode == AlphaMode::opaque;
+        rest_.push_back(texel_of(triangle.corners[2], opaque ? 0 : add_alpha(sources, triangle)));
     }
     counts_.nodes += binary.nodes.size();
     counts_.triangles += triangles.size();
@@ -111,14 +133,33 @@ int SceneTrees::add_tree(const std::vector<Triangle>& triangles) {
     return int(trees_.size()) - 1;
 }
 
+bool AlphaSource::operator==(const AlphaSource& other) const {
+    const TextureSlot &a = texture, &b = other.texture;
+    return mode == other.mode && cutoff == other.cutoff && alpha == other.alpha && a.texture == b.texture &&
+           a.uv_set == b.uv_set && a.offset == b.offset && a.scale == b.scale && a.rotation == b.rotation;
+}
+
+std::vector<AlphaSource> alpha_sources(const std::vector<Material>& materials) {
+    std::vector<AlphaSource> sources;
+    for (const Material& material : materials) {
+        AlphaSource& source = sources.emplace_back();
+        source.mode = material.alpha_mode;
+        if (source.mode == AlphaMode::opaque) continue; // the rest has no say
+        source.cutoff = material.alpha_cutoff;
+        source.alpha = material.base_colour.a;
+        source.texture = material.base_colour_texture;
+    }
+    return sources;
+}
+
 void SceneTrees::build(const std::vector<Vertex>& vertices, const std::vector<uint32_t>& indices,
-                       const std::vector<GpuDraw>& draws, const std::vector<bool>& alpha_matters,
+                       const std::vector<GpuDraw>& draws, const std::vector<AlphaSource>& alpha,
                        const TreeSettings& settings) {
     settings_ = settings;
-    trees_.clear(), roots_.clear(), rest_.clear();
+    trees_.clear(), roots_.clear(), rest_.clear(), alpha_.clear();
     draws_ = draws;
     counts_ = {};
-    const Sources sources{vertices, indices, alpha_matters};
+    const Sources sources{vertices, indices, alpha};
     // Roots first: what follows them starts behind the place that they take.
     uint64_t most_roots = 1;
     for (const GpuDraw& draw : draws)
@@ -128,18 +169,17 @@ void SceneTrees::build(const std::vector<Vertex>& vertices, const std::vector<ui
     std::vector<Triangle> standing;
     for (uint32_t i = 0; i < draws.size(); ++i)
         if (!shares(draws[i])) add_triangles(sources, draws[i], i, true, standing);
-    if (const int tree = add_tree(standing); tree >= 0) roots_.push_back({tree, -1});
-    // Whether alpha matters goes by the material, which copies of a mesh may not share.
-    std::map<std::array<uint32_t, 3>, int> known;
+    if (const int tree = add_tree(sources, standing); tree >= 0) roots_.push_back({tree, -1});
+    std::map<std::array<uint32_t, 3>, int> known; // by mesh and material, whose alpha is in the tree
     for (uint32_t i = 0; i < draws.size(); ++i) {
         const GpuDraw& draw = draws[i];
         if (!shares(draw)) continue;
-        const std::array<uint32_t, 3> key{draw.first_index, draw.index_count, alpha_matters[draw.material]};
+        const std::array<uint32_t, 3> key{draw.first_index, draw.index_count, draw.material};
         auto found = known.find(key);
         if (found == known.end()) {
             std::vector<Triangle> triangles;
             add_triangles(sources, draw, 0, false, triangles);
-            found = known.emplace(key, add_tree(triangles)).first;
+            found = known.emplace(key, add_tree(sources, triangles)).first;
         }
         if (found->second >= 0) roots_.push_back({found->second, int(i)});
     }
@@ -193,7 +233,10 @@ std::vector<Texel> SceneTrees::top(const std::vector<GpuDraw>& draws) const {
         uint32_t& word = texels[i].w;
         if (word & k_leaf_bit) word = k_leaf_bit | binary.order[word & ((1u << k_leaf_count_shift) - 1)];
     }
-    texels[0] = {uint32_t(roots_.size()), first_node, uint32_t(binary.nodes.size()), 0};
+    Digest digest;
+    for (const GpuDraw& draw : draws)
+        digest.add(draw.world);
+    texels[0] = {uint32_t(roots_.size()), first_node, uint32_t(binary.nodes.size()), uint32_t(digest.value())};
     texels[1] = texel_of(grid.min, 0);
     texels[2] = texel_of(grid.scale, 0);
     return texels;
