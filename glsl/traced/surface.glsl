@@ -33,8 +33,10 @@ vec3 unit_or(vec3 v, vec3 otherwise) {
     return size2 > 1.0e-37 && size2 < 1.0e37 ? v / sqrt(size2) : otherwise;
 }
 
-// `footprint`: area over which textures are averaged, m². `mapped`: with normal maps.
-TracedSurface surface_at(TracedHit hit, vec3 direction, float footprint, bool mapped) {
+const int k_with_normal_maps = 1, k_with_emission = 2;
+
+// `footprint`: area over which textures are averaged, m². `parts`: what is looked up beside base colour and metallic.
+TracedSurface surface_at(TracedHit hit, vec3 direction, float footprint, int parts) {
     Draw draw = draws[hit.draw];
     Material material = materials[draw.material];
     Vertex corners[3];
@@ -55,7 +57,7 @@ TracedSurface surface_at(TracedHit hit, vec3 direction, float footprint, bool ma
     vec3 normal = vec3(0.0);
     for (int k = 0; k < 3; ++k) normal += weight[k] * world_normal(draw, corners[k].normal_v.xyz);
     normal = unit_or(normal, s.face);
-    if (mapped && normal_maps != 0 && material.normal_texture.array >= 0) {
+    if ((parts & k_with_normal_maps) != 0 && normal_maps != 0 && material.normal_texture.array >= 0) {
         vec3 tangent = vec3(0.0);
         float handedness = 0.0;
         for (int k = 0; k < 3; ++k) {
@@ -76,7 +78,7 @@ TracedSurface surface_at(TracedHit hit, vec3 direction, float footprint, bool ma
     vec2 rm = vec2(material.roughness, material.metallic) * sample_at_point(material.metallic_roughness_texture, point, 16.0).gb;
     s.roughness = rm.x;
     s.metallic = rm.y;
-    s.emission = material.emission * sample_at_point(material.emission_texture, point, 16.0).rgb;
+    s.emission = (parts & k_with_emission) != 0 ? material.emission * sample_at_point(material.emission_texture, point, 16.0).rgb : vec3(0.0);
     return s;
 }
 

@@ -37,6 +37,9 @@ std::vector<Vertex> PassContext::read_vertices() const {
 std::vector<uint32_t> PassContext::read_indices() const {
     return scene({ScenePart::geometry}).indices().read_all<uint32_t>();
 }
+const GpuTexture& PassContext::environment() const {
+    return scene({ScenePart::environment}).environment();
+}
 
 const PlanSlot& PassContext::slot(const std::string& name) const {
     if (const PlanSlot* found = pass_.find(name)) return *found;

@@ -58,6 +58,7 @@ class PassContext {
     /// Copies of what was uploaded, read back: for what is built on the CPU and kept. Stalls.
     std::vector<Vertex> read_vertices() const;
     std::vector<uint32_t> read_indices() const;
+    const GpuTexture& environment() const;
     const PlanPass& plan() const { return pass_; }
 
     /// The whole texture or buffer behind a slot. Throws Error when the slot has none (a declined producer).

@@ -46,8 +46,8 @@ class SceneTrees {
                const std::vector<GpuDraw>& draws, const std::vector<AlphaSource>& alpha, const TreeSettings& settings);
     /// Whether these draws only differ in where those lie that have a tree of their own mesh.
     bool fits(const std::vector<GpuDraw>& draws) const;
-    /// Header, roots and top tree for these draws, which must fit: the first texels of the resource. The header tells how
-    /// many roots there are, where the top tree is and how many nodes it has, and a digest of where all draws lie.
+    /// Header, roots and top tree for these draws, which must fit: the first texels of the resource. The header tells
+    /// how many roots there are, where the top tree is and how many nodes it has, and a digest of where all draws lie.
     std::vector<Texel> top(const std::vector<GpuDraw>& draws) const;
     /// What follows them.
     const std::vector<Texel>& rest() const { return rest_; }
