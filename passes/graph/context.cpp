@@ -28,6 +28,18 @@ const std::vector<GpuLight>& PassContext::lights() const {
 const std::vector<Material>& PassContext::materials() const {
     return scene({ScenePart::materials}).material_list();
 }
+const Revision& PassContext::revision(ScenePart part) const {
+    return scene({part}).revision(part);
+}
+std::vector<Vertex> PassContext::read_vertices() const {
+    return scene({ScenePart::geometry}).vertices().read_all<Vertex>();
+}
+std::vector<uint32_t> PassContext::read_indices() const {
+    return scene({ScenePart::geometry}).indices().read_all<uint32_t>();
+}
+const GpuTexture& PassContext::environment() const {
+    return scene({ScenePart::environment}).environment();
+}
 
 const PlanSlot& PassContext::slot(const std::string& name) const {
     if (const PlanSlot* found = pass_.find(name)) return *found;
@@ -218,7 +230,8 @@ void PassContext::dispatch(const std::string& name, glm::ivec3 threads) {
 
 void PassContext::barrier() {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
-                    GL_TEXTURE_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
+                    GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                    GL_FRAMEBUFFER_BARRIER_BIT);
 }
 
 void PassContext::dispatch_indirect(const std::string& name, const std::string& slot_of_counts, GLintptr offset) {

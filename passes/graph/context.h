@@ -54,6 +54,11 @@ class PassContext {
     const std::vector<GpuDraw>& draws() const;
     const std::vector<GpuLight>& lights() const;
     const std::vector<Material>& materials() const;
+    const Revision& revision(ScenePart part) const;
+    /// Copies of what was uploaded, read back: for what is built on the CPU and kept. Stalls.
+    std::vector<Vertex> read_vertices() const;
+    std::vector<uint32_t> read_indices() const;
+    const GpuTexture& environment() const;
     const PlanPass& plan() const { return pass_; }
 
     /// The whole texture or buffer behind a slot. Throws Error when the slot has none (a skipped producer).
@@ -79,8 +84,8 @@ class PassContext {
     /// At least so many invocations (rounded up to whole groups).
     void dispatch(const std::string& program, glm::ivec3 threads);
     void dispatch_indirect(const std::string& program, const std::string& slot, GLintptr offset = 0);
-    /// What this pass wrote so far is seen by its dispatches, draws and copies from here on. Between passes the graph
-    /// does that by itself.
+    /// What this pass wrote so far is seen by its dispatches, draws, copies and reads from here on. Between passes the
+    /// graph does that by itself.
     void barrier();
     /// Draws the scene with the state that is set (glEnable …), binding each material's textures. State is put back to
     /// the graph's defaults by the caller: use a Raster object.
