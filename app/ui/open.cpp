@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/json_text.h"
 #include "core/paths.h"
+#include "scene/scene_formats.h"
 
 #include <algorithm>
 
@@ -50,12 +51,10 @@ void ask_for_graph(PanelContext& context, const std::string& name) {
 }
 
 void ask_for_file(PanelContext& context, const std::string& path) {
-    std::string extension = fs::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
-    if (extension == ".gltf" || extension == ".glb") return ask_for_shot(context, path);
-    if (extension != ".json") {
-        return context.ui.say("'" + path + "' cannot be opened: a .gltf, a .glb, or a shot or graph as .json can",
+    if (scene_format_of(path)) return ask_for_shot(context, path);
+    if (fs::path(path).extension() != ".json") {
+        return context.ui.say("'" + path + "' cannot be opened: expected a scene (" + scene_extensions() +
+                                  "), or a shot or graph (.json)",
                               true);
     }
     try {

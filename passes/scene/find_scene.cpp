@@ -3,6 +3,7 @@
 #include "core/input_file.h"
 #include "core/paths.h"
 #include "core/text.h"
+#include "scene/scene_formats.h"
 #include "scene/shot.h"
 
 #include <algorithm>
@@ -20,11 +21,6 @@ std::string lower(std::string text) {
     for (char& c : text)
         c = char(std::tolower(static_cast<unsigned char>(c)));
     return text;
-}
-
-bool is_gltf(const fs::path& path) {
-    std::string extension = lower(path.extension().string());
-    return extension == ".gltf" || extension == ".glb";
 }
 
 std::vector<fs::path> entries(const fs::path& folder) {
@@ -55,11 +51,11 @@ fs::path ignoring_case(const fs::path& folder, const fs::path& relative) {
     return at;
 }
 
-/// The one .gltf of a folder, or the one that is named for it, or the first.
+/// The one scene of a folder, or the one that is named for it, or the first.
 fs::path scene_in(const fs::path& folder) {
     std::vector<fs::path> scenes;
     for (const fs::path& entry : entries(folder))
-        if (is_gltf(entry)) scenes.push_back(entry);
+        if (scene_format_of(entry)) scenes.push_back(entry);
     for (const fs::path& scene : scenes)
         if (lower(scene.stem().string()) == lower(folder.filename().string())) return scene;
     return scenes.empty() ? fs::path() : scenes.front();
@@ -68,7 +64,10 @@ fs::path scene_in(const fs::path& folder) {
 /// What `name` means below one folder of the search path, or nothing.
 fs::path resolve(const fs::path& folder, const std::string& name) {
     std::error_code ignored;
-    for (const char* extension : {"", ".gltf", ".glb"}) {
+    std::vector<std::string> endings{""};
+    for (const SceneFormat& format : scene_formats())
+        endings.insert(endings.end(), format.extensions.begin(), format.extensions.end());
+    for (const std::string& extension : endings) {
         fs::path found = ignoring_case(folder, name + extension);
         if (found.empty()) continue;
         if (fs::is_regular_file(found, ignored)) return found;
@@ -94,7 +93,7 @@ std::vector<std::string> scene_names() {
     std::set<std::string> names;
     for (const fs::path& folder : scene_search_path())
         for (const fs::path& entry : entries(folder)) {
-            if (is_gltf(entry)) names.insert(entry.stem().string());
+            if (scene_format_of(entry)) names.insert(entry.stem().string());
             std::error_code ignored;
             if (fs::is_directory(entry, ignored) && !scene_in(entry).empty()) names.insert(entry.filename().string());
         }

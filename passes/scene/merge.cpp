@@ -1,7 +1,7 @@
 #include "scene/merge.h"
 
 #include "core/error.h"
-#include "scene/shot.h"
+#include "scene/scene_formats.h"
 
 #include <fmt/format.h>
 #include <limits>
@@ -20,7 +20,7 @@ std::array<TextureSlot*, 4> slots_of(Material& material) {
 SceneMerger::Placed& SceneMerger::load(const std::filesystem::path& file) {
     auto [it, is_new] = placed_.try_emplace(file);
     if (!is_new) return it->second;
-    Scene from = load_gltf(file);
+    Scene from = load_scene(file);
     constexpr size_t k_most = std::numeric_limits<uint32_t>::max();
     if (into_.vertices.size() + from.vertices.size() > k_most || into_.indices.size() + from.indices.size() > k_most)
         throw Error(file.string() + ": too many vertices in all for 32-bit indices");

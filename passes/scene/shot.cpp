@@ -12,6 +12,7 @@
 #include "scene/keyframes.h"
 #include "scene/loaded_space.h"
 #include "scene/merge.h"
+#include "scene/scene_formats.h"
 #include "scene/shot_parts.h"
 
 #include <algorithm>
@@ -71,7 +72,7 @@ class ShotReader {
         auto name = object_.text("scene");
         if (!name) return;
         try {
-            shot_.scene = load_gltf(find_scene(*name, base_));
+            shot_.scene = load_scene(find_scene(*name, base_));
         } catch (const Error& error) {
             errors_.add(std::string("scene: ") + error.what());
         }
@@ -127,16 +128,11 @@ void collect_light_paths(Shot& shot) {
 Shot wrap_scene(const fs::path& path) {
     Shot shot;
     shot.path = path;
-    shot.scene = load_gltf(path);
+    shot.scene = load_scene(path);
     shot.name = shot.scene.name;
     shot.scene.space = suitable_space(shot.scene);
     complete_shot(shot, false, true);
     return shot;
-}
-
-bool is_gltf(const fs::path& path) {
-    return path.extension() == ".gltf" || path.extension() == ".glb" || path.extension() == ".GLTF" ||
-           path.extension() == ".GLB";
 }
 
 } // namespace
@@ -150,7 +146,7 @@ fs::path find_shot(const std::string& name) {
         if (!name.empty() && fs::is_regular_file(candidate, ignored)) return candidate;
     if (fs::path(name).extension() == ".json")
         throw Error("no shot '" + name + "'" + did_you_mean(fs::path(name).stem().string(), asset_names("shots")));
-    if (is_gltf(name)) return find_given_scene(name);
+    if (scene_format_of(name)) return find_given_scene(name);
     try {
         return find_given_scene(name);
     } catch (const Error& error) {
@@ -162,13 +158,13 @@ fs::path find_shot(const std::string& name) {
 Shot load_shot(const std::string& name) {
     fs::path path = find_shot(name);
     Shot shot;
-    if (is_gltf(path)) {
+    if (scene_format_of(path)) {
         shot = wrap_scene(path);
     } else if (path.extension() == ".json") {
         json root = read_json_file(path);
         shot = ShotReader(path, root).read();
     } else {
-        throw Error(path.string() + ": not a shot: a .json, .gltf or .glb is wanted");
+        throw Error(path.string() + ": not a shot: expected a file that ends in .json, " + scene_extensions());
     }
     collect_light_paths(shot);
     return shot;
