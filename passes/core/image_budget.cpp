@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/jpeg_check.h"
 #include "core/limits.h"
+#include "core/png_check.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -27,7 +28,7 @@ uint64_t pixels_per_byte(bool png, bool jpeg) {
 } // namespace
 
 DeclaredSize declared_size(const uint8_t* data, size_t size, const std::string& what) {
-    const bool png = begins(data, size, "\x89PNG\r\n\x1a\n", 8), jpeg = is_jpeg(data, size);
+    const bool png = is_png(data, size), jpeg = is_jpeg(data, size);
     if (jpeg) check_jpeg(data, size, what);
     // Formats that no scene needs, and whose decoders have seen few files.
     const bool other = begins(data, size, "GIF8", 4) || begins(data, size, "8BPS", 4) ||

@@ -5,6 +5,7 @@
 #include "core/image_budget.h"
 #include "core/input_file.h"
 #include "core/limits.h"
+#include "core/png_check.h"
 
 #include <algorithm>
 #include <memory>
@@ -32,6 +33,7 @@ static void check_size(size_t size, const std::string& what) {
 Image8 decode_image8(const uint8_t* data, size_t size, const std::string& what) {
     check_size(size, what);
     check_texture_budget(declared_size(data, size, what).pixels(), what);
+    if (is_png(data, size)) check_png(data, size, what);
     Decoded<uint8_t> decoded;
     int channels = 0;
     decoded.pixels.reset(stbi_load_from_memory(data, int(size), &decoded.width, &decoded.height, &channels, 4));

@@ -24,8 +24,12 @@ class JpegCheck {
         bool in_scan = false;
         for (int marker = next_marker(in_scan); marker >= 0; marker = next_marker(in_scan)) {
             const size_t length = left() >= 2 ? size_t(data_[at_] << 8 | data_[at_ + 1]) : 0;
-            // Where the decoder gives up, there is nothing left to check.
-            if (marker == 0xD9 || length < 2 || length > left()) return;
+            // Where the decoder gives up, there is nothing left to check. It reads zeros behind the end, though.
+            if (marker == 0xD9 || length < 2) return;
+            if (length > left()) {
+                if (marker >= 0xE0) return;
+                fail(fmt::format("it ends within the segment of marker {:02x}", marker));
+            }
             const uint8_t* content = data_ + at_ + 2;
             const size_t bytes = length - 2;
             at_ += length;

@@ -113,6 +113,9 @@ TEST(JpegCheck, CutOffAnywhere) {
         told(picture.substr(0, length)); // refused, or decoded as far as it goes; never read beyond
     EXPECT_THAT(told(with(picture, segment(0xC4, table(0, {9}).substr(0, 20)))), HasSubstr("cut off"));
     EXPECT_THAT(told(with(picture, segment(0xDB, "\1abc"))), HasSubstr("cut off"));
+    // The decoder builds tables of what is there.
+    const std::string large = segment(0xC4, table(0x10, {255, 255}));
+    EXPECT_THAT(told(with(picture, large, true).substr(0, picture.find("\xFF\xDA") + 60)), HasSubstr("it ends within"));
 }
 
 } // namespace bounce

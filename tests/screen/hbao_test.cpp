@@ -274,7 +274,7 @@ void main() {
     SceneRunner run(scene, {},
                     graph_file(R"("resources":{"screen.occlusion":{"format":"r32f"},"screen.blurred":{"format":"r32f"}},
         "passes":[{"type":"gbuffer"},{"id":"halves","type":"compute","shader":"test/halves.comp"},
-                  {"id":"blur","type":"compute","shader":"screen/blur.comp"}])"),
+                  {"id":"blur","type":"compute","shader":"screen/blur.comp","bind":{"screen.blurred":"screen.blurred"}}])"),
                     {}, {k_size, k_size});
     run.camera = camera;
     run.frame();
