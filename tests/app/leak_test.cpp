@@ -48,7 +48,8 @@ class Leaks : public GpuTest {
     void reload(int turn) {
         // Two texts in turn, so that a driver's cache of compiled shaders does not grow with the test.
         std::string text = tonemap;
-        text.replace(text.find("    if (curve == 1)"), 0, std::string("    ") + k_variants[turn % 2] + "\n");
+        text.replace(text.find("    if (curve == curve_aces_like)"), 0,
+                     std::string("    ") + k_variants[turn % 2] + "\n");
         root.write("glsl/surface/tonemap.comp", text);
         if (turn % 3 == 0) root.write("assets/graphs/direct.json", graph);
         if (turn % 5 == 0) session->resize({32 + turn % 2, 18});

@@ -43,6 +43,7 @@ class MetricOutputs : public testing::Test {
 
     ChartPoint point() {
         ChartPoint point;
+        point.key = "0123456789abcdef";
         point.task.session.shot = "cornell";
         point.task.session.graph = "direct";
         point.task.session.size = glm::ivec2(16);

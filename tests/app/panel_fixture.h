@@ -5,6 +5,7 @@
 #include "app/hosts/headless.h"
 #include "app/panels/panel.h"
 #include "app/ui/widget_rects.h"
+#include "support/temp_folder.h"
 
 #include <filesystem>
 #include <fstream>
@@ -136,9 +137,14 @@ class PanelsTest : public testing::Test {
 /// A graph of one shader that tests can write to.
 class PanelsOnOwnShader : public PanelsTest {
   protected:
+    /// Shaders are read from below a root's glsl alone.
+    fs::path shaders() {
+        fs::create_directories(root.path() / "glsl/user");
+        return root.path() / "glsl/user";
+    }
     void write(const std::string& line) {
         static int count = 0; // a text of another length each time, so that any watcher sees it
-        fs::path aside = folder / "paint.tmp";
+        fs::path aside = shaders() / "paint.tmp";
         std::ofstream(aside) << R"(layout(local_size_x = 8, local_size_y = 8) in;
 uniform int steps = 4;  //! static [1, 64] unrolled steps
 uniform float scale = 1.0;  //! [0.0001, 100] (metres) a length
@@ -155,22 +161,22 @@ void main() {
     imageStore(out_display, ivec2(gl_GlobalInvocationID.xy), vec4(colour, 1.0));
 } // )" << std::string(size_t(++count), 'x')
                              << "\n";
-        fs::rename(aside, folder / "paint.comp");
+        fs::rename(aside, shaders() / "paint.comp");
     }
     void open_own() {
         write("");
-        nlohmann::json graph = {{"version", 1},
-                                {"resources",
-                                 {{"out.display", {{"format", "rgba8"}}},
-                                  {"paint.numbers", {{"kind", "buffer"}, {"count", "64"}, {"stride", 16}}}}},
-                                {"passes",
-                                 {{{"id", "paint"},
-                                   {"type", "compute"},
-                                   {"shader", (folder / "paint.comp").string()},
-                                   {"params", {{"scale", 2.5}}}}}}};
+        nlohmann::json graph = {
+            {"version", 1},
+            {"resources",
+             {{"out.display", {{"format", "rgba8"}}},
+              {"paint.numbers", {{"kind", "buffer"}, {"count", "64"}, {"stride", 16}}}}},
+            {"passes",
+             {{{"id", "paint"}, {"type", "compute"}, {"shader", "user/paint.comp"}, {"params", {{"scale", 2.5}}}}}}};
         std::ofstream(folder / "paint.json") << graph.dump(2);
         open((folder / "paint.json").string());
     }
+
+    TempRoot root;
 };
 
 } // namespace bounce

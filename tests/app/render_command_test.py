@@ -149,8 +149,8 @@ class Pictures(ProgramTest):
         self.assertEqual((self.out / "x.png").read_bytes(), (self.out / "y.png").read_bytes())
         result = self.render("z.png", *small, "--enable", "view_cubes", "--disable", "emission")
         self.assertIn("view_cubes", result.stdout)
-        self.assertIn("inspect: not run, switched off", result.stdout)
-        self.assertIn("emission: not run, switched off", result.stdout)
+        self.assertIn("inspect: skipped: switched off", result.stdout)
+        self.assertIn("emission: skipped: switched off", result.stdout)
 
     def test_timings(self):
         result = self.render("x.png", "--timings", "t.json", "--frames", "3")
