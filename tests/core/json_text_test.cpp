@@ -78,8 +78,8 @@ TEST(JsonText, FilesOfOurs) {
 }
 
 TEST(JsonText, WritesNamesThatAreNoUtf8) {
-    json json = {{"shot", "a\xFF"}};
-    EXPECT_EQ(json_dump(json), "{\"shot\":\"a\xEF\xBF\xBD\"}");
+    const json named = {{"shot", "a\xFF"}};
+    EXPECT_EQ(json_dump(named), "{\"shot\":\"a\xEF\xBF\xBD\"}");
 }
 
 TEST(Problem, WordsForEveryKindOfException) {
