@@ -6,7 +6,7 @@
 #include "traced/surface.glsl"
 
 layout(std430) readonly buffer traced_light_tables { uint light_tables[]; }; //! optional
-layout(std430) readonly buffer traced_emitters { uint any_are_there[]; };    //! optional: only tells that there are some
+layout(std430) readonly buffer traced_emitters { uint any_are_there[]; };    //! optional // tells only that there are some
 
 struct LightSample {
     vec3 direction; // unit, from the surface

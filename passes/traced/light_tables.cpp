@@ -64,7 +64,7 @@ class LightTablesPass : public Pass {
             d.writes(name, Usage::storage);
         if (emissive_) d.uses("weights");
         d.counts("emissive triangles", "traced.table_counts", 0);
-        d.counts("emissive triangles without room", "traced.table_counts", 1, true);
+        d.counts("dropped emissive triangles", "traced.table_counts", 1, true);
     }
 
     bool needs_larger_buffers(const std::vector<int64_t>& counted) override {
