@@ -22,7 +22,7 @@ struct ShaderLimits {
     int64_t macro_depth = 500;         ///< macros that expand to macros
     int64_t nesting = 200;             ///< parentheses, brackets, braces, statements, #if
     int64_t operators = 1000;          ///< in a row, in one expression
-    int64_t inlined_tokens = 100000;   ///< of main, with the functions that it calls put in their places
+    int64_t inlined_tokens = 150000;   ///< of main, with the functions that it calls put in their places
     int64_t loop_iterations = 1 << 20; ///< of loops with constant bounds, nested ones multiplied
     int64_t private_bytes = 1 << 14;   ///< of the variables of one function, or of all global ones
     int64_t shared_bytes = 1 << 16;    ///< of the shared variables together
