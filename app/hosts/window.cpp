@@ -26,7 +26,7 @@ struct Window::Native {
         int key, scancode, modifiers;
     };
     std::vector<int> pressed;      ///< keys since the last frame
-    std::vector<Release> released; ///< of those: told to ImGui after the frame, or it would miss a short press
+    std::vector<Release> released; ///< after a press: told to ImGui after the frame, or it would miss a short press
     bool fullscreen = false;
     glm::ivec2 windowed_position{0}, windowed_size{1280, 720};
 };
@@ -70,8 +70,8 @@ std::string key_name(int key, int scancode) {
 void on_key(GLFWwindow* handle, int key, int scancode, int action, int modifiers) {
     Window::Native& native = native_of(handle);
     native.active = true;
-    bool short_press = std::find(native.pressed.begin(), native.pressed.end(), key) != native.pressed.end();
-    if (action == GLFW_RELEASE && short_press)
+    // Ctrl that is released in the frame in which A is pressed has been held over A.
+    if (action == GLFW_RELEASE && !native.pressed.empty())
         native.released.push_back({key, scancode, modifiers});
     else
         ImGui_ImplGlfw_KeyCallback(handle, key, scancode, action, modifiers);

@@ -266,9 +266,11 @@ class Window(ProgramTest):
         twice.write_text('{"scene": "a.gltf", "scene": "b.gltf"}')
         odd = self.folder / "odd.json"
         odd.write_text('{"scene": 5, "objects": 7}')
+        # Ctrl is pressed in one frame, and released in that in which A is pressed.
+        select_all = ("keydown", "ctrl", "sleep", "0.5", "key", "a", "keyup", "ctrl")
         for path, words in (("/" + "x" * 300 + ".gltf", "no scene at"), (deep, "nested more than 64 levels"), (twice, "twice"), (odd, "scene")):
             self.click("scene.path")
-            self.input("key", "ctrl+a")
+            self.input(*select_all)
             subprocess.run(["xdotool", "type", "--delay", "5", str(path)], env=self.environment(), check=True, timeout=60)
             self.input("key", "Return")
             state = self.wait(lambda state: words in state["notice"], words)
