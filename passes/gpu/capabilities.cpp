@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <limits>
 
 namespace bounce {
 
@@ -112,6 +113,13 @@ Capabilities read_capabilities() {
     while (glGetError() != GL_NO_ERROR) {
     }
     return caps;
+}
+
+int64_t driver_limit(GLenum name) {
+    if (!glGetInteger64v) return std::numeric_limits<int64_t>::max();
+    GLint64 value = 0;
+    glGetInteger64v(name, &value);
+    return value;
 }
 
 std::string describe(const Capabilities& caps) {

@@ -26,6 +26,10 @@ Capabilities read_capabilities();
 /// Three or four lines for the start of the log.
 std::string describe(const Capabilities& capabilities);
 
+/// A limit of the present driver, GL_MAX_TEXTURE_SIZE for example. Without a driver there is none: graphs are also
+/// planned where no context is.
+int64_t driver_limit(GLenum name);
+
 /// What a host does once its context is current: messages to the log, capabilities, and an Error that names what is
 /// missing.
 Capabilities start_context();

@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "core/text.h"
+#include "gpu/capabilities.h"
 #include "gpu/objects.h"
 
 #include <algorithm>
@@ -48,17 +49,13 @@ uint64_t texture_bytes(const TextureDesc& desc) {
     return bytes;
 }
 
-static GLint limit(GLenum name) {
-    GLint value = 0;
-    glGetIntegerv(name, &value);
-    return value;
-}
-
 static void check_size(const TextureDesc& desc, const std::string& name) {
     glm::ivec3 s = desc.size;
     bool is_3d = desc.kind == TextureKind::texture_3d;
-    int side = limit(is_3d ? GL_MAX_3D_TEXTURE_SIZE : GL_MAX_TEXTURE_SIZE);
-    int depth = is_3d ? side : desc.kind == TextureKind::texture_2d_array ? limit(GL_MAX_ARRAY_TEXTURE_LAYERS) : 1;
+    int64_t side = driver_limit(is_3d ? GL_MAX_3D_TEXTURE_SIZE : GL_MAX_TEXTURE_SIZE);
+    int64_t depth = is_3d                                        ? side
+                    : desc.kind == TextureKind::texture_2d_array ? driver_limit(GL_MAX_ARRAY_TEXTURE_LAYERS)
+                                                                 : 1;
     bool fits = s.x >= 1 && s.y >= 1 && s.z >= 1 && s.x <= side && s.y <= side && s.z <= depth;
     if (!fits) {
         throw Error(fmt::format("texture '{}' would be {}×{}×{}; this driver allows 1 … {} by {} by {}", name, s.x, s.y,

@@ -3,11 +3,11 @@
 #include "core/limits.h"
 #include "core/memory.h"
 #include "core/text.h"
+#include "gpu/capabilities.h"
 #include "gpu/device_memory.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <glad/gl.h>
 #include <limits>
 
 namespace bounce {
@@ -78,25 +78,19 @@ class Remedy {
     std::string name_, value_;
 };
 
-int driver_limit(GLenum name) {
-    GLint value = 0;
-    glGetIntegerv(name, &value);
-    return value;
-}
-
 /// The side of a texture that is above the driver's limit: its length, or 0 when all fit.
 struct TooLong {
     const char* side = "";
-    int length = 0;
-    int most = 0;
+    int64_t length = 0;
+    int64_t most = 0;
 };
 
 TooLong too_long(const TextureDesc& desc) {
     const bool volume = desc.kind == TextureKind::texture_3d;
-    const int side = driver_limit(volume ? GL_MAX_3D_TEXTURE_SIZE : GL_MAX_TEXTURE_SIZE);
-    const int depth = volume                                       ? side
-                      : desc.kind == TextureKind::texture_2d_array ? driver_limit(GL_MAX_ARRAY_TEXTURE_LAYERS)
-                                                                   : 1;
+    const int64_t side = driver_limit(volume ? GL_MAX_3D_TEXTURE_SIZE : GL_MAX_TEXTURE_SIZE);
+    const int64_t depth = volume                                       ? side
+                          : desc.kind == TextureKind::texture_2d_array ? driver_limit(GL_MAX_ARRAY_TEXTURE_LAYERS)
+                                                                       : 1;
     if (desc.size.x > side) return {"wide", desc.size.x, side};
     if (desc.size.y > side) return {"high", desc.size.y, side};
     if (desc.size.z > depth) return {volume ? "deep" : "layers", desc.size.z, depth};

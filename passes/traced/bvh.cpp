@@ -16,12 +16,6 @@ namespace {
 
 constexpr int64_t k_row = 8192; ///< texels of the texture's rows, as in glsl/traced/tree.glsl
 
-int64_t limit_of(GLenum name) {
-    GLint64 value = 0;
-    glGetInteger64v(name, &value);
-    return value;
-}
-
 } // namespace
 
 class BvhPass : public Pass {
@@ -45,7 +39,7 @@ class BvhPass : public Pass {
         tree_capacity_ =
             std::max(int64_t(top_texels(roots)) + int64_t(std::ceil(triangles * per_triangle)) + 4096, tree_grown_);
         if (wide_nodes_) {
-            check(tree_capacity_ * int64_t(sizeof(Texel)), limit_of(GL_MAX_SHADER_STORAGE_BLOCK_SIZE),
+            check(tree_capacity_ * int64_t(sizeof(Texel)), driver_limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE),
                   "bytes of a buffer", triangles);
             d.creates_buffer("traced.nodes", std::to_string(tree_capacity_), sizeof(Texel)).incremental = true;
             d.writes("traced.nodes", Usage::storage);
@@ -109,7 +103,7 @@ class BvhPass : public Pass {
     /// Rows of texels; returns how many fit.
     static int64_t declare_texture(Declaration& d, const char* name, int64_t texels, double triangles) {
         const int64_t rows = (texels + k_row - 1) / k_row;
-        check(rows, limit_of(GL_MAX_TEXTURE_SIZE), "rows of a texture", triangles);
+        check(rows, driver_limit(GL_MAX_TEXTURE_SIZE), "rows of a texture", triangles);
         d.creates(name, ResourceKind::texture_2d, "rgba32ui", Extent(int(k_row), int(rows))).incremental = true;
         d.writes(name, Usage::image);
         return rows * k_row;
