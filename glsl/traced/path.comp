@@ -171,7 +171,7 @@ void main() {
         TracedHit hit = trace_nearest(origin, direction, 3.0e38, coverage);
         TracedSurface s;
         s.emission = vec3(0.0);
-        if (hit.draw != k_nothing) s = surface_at(hit, direction, 0.0, k_with_normal_maps | k_with_emission);
+        if (hit.draw != k_nothing) s = surface_at(hit, direction, k_with_normal_maps | k_with_emission);
         bool ends = hit.draw == k_nothing;
         if (path == k_before) {
             emission = ends ? environment(direction) : s.emission;
