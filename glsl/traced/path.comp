@@ -145,7 +145,7 @@ struct Way { // the first ray of a path
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, resolution))) return;
+    if (any(greaterThanEqual(pixel, resolution)) || frame_index < 0) return; // each frame adds: what reads its number runs in each
     vec4 mean = imageLoad(out_direct, pixel);
     float scene = scene_number();
     if (imageLoad(out_emission, pixel).a != scene) mean = vec4(0.0); // what moves leaves no trail
