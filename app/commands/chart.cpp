@@ -24,6 +24,7 @@ struct ChartArguments {
     std::vector<std::string> shots, merge, parts;
     std::string graphs = k_default_graph, sweep, output, shard, against, metric;
     int warm_up = 3, frames = 10, samples = 0;
+    std::string reference = "cpu";
     double noise = 0.01;
     bool resume = true;
     ChartArguments() { session.size = "320x180"; }
@@ -72,6 +73,7 @@ int run(const ChartArguments& a) {
                 task.frames = a.frames;
                 task.reference_noise = a.noise;
                 task.reference_samples = a.samples;
+                task.device_reference = a.reference == "device";
                 task.parts = a.parts;
                 plan.tasks.push_back(task);
             }
@@ -115,6 +117,10 @@ void add_chart_command(CLI::App& app, CommandFunction& chosen) {
         ->capture_default_str();
     command->add_option("--spp", a->samples, "samples a pixel of the references, instead of --noise")
         ->check(whole_between(2, 1 << 20));
+    command->add_option("--reference", a->reference, "who renders the references: cpu, or device by path_traced")
+        ->type_name("WHO")
+        ->check(one_of({"cpu", "device"}))
+        ->capture_default_str();
     command->add_option("--shard", a->shard, "i/n: measure only every n-th point, from the i-th (0 … n − 1)")
         ->check(shard());
     command

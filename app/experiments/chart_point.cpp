@@ -43,6 +43,7 @@ std::string PointTask::rebuild() const {
 
 std::string PointTask::name() const {
     std::string text = fmt::format("{} {} {} {}", command(), frames, reference_noise, reference_samples);
+    if (device_reference) text += " device";
     for (const std::string& part : parts)
         text += " " + part;
     return text;
@@ -88,6 +89,7 @@ std::string point_to_json(const ChartPoint& p) {
     j["warm_up"] = p.task.warm_up;
     j["frames"] = p.task.frames;
     j["reference_goal"] = {{"noise", p.task.reference_noise}, {"samples", p.task.reference_samples}};
+    if (p.task.device_reference) j["reference_goal"]["by"] = "device";
     j["command"] = p.task.command();
     j["total_ms"] = p.total_ms;
     j["bytes"] = p.bytes;
@@ -136,6 +138,7 @@ ChartPoint point_from_json(const std::string& text, const std::string& where) {
         p.task.frames = j.at("frames");
         p.task.reference_noise = j.at("reference_goal").at("noise");
         p.task.reference_samples = j.at("reference_goal").at("samples");
+        p.task.device_reference = j.at("reference_goal").value("by", "cpu") == "device";
         p.total_ms = j.at("total_ms");
         p.bytes = j.at("bytes");
         for (const auto& pass : j.at("passes")) {

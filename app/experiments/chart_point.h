@@ -20,6 +20,7 @@ struct PointTask {
     int warm_up = 3, frames = 10;
     double reference_noise = 0.01;
     int reference_samples = 0;      ///< above 0: instead of the noise goal
+    bool device_reference = false;  ///< by the graph path_traced
     std::vector<std::string> parts; ///< whose sum is compared; empty: what the graph's transport says
 
     glm::ivec2 size() const { return session.size.value_or(glm::ivec2(0)); }

@@ -2,6 +2,7 @@
 #include "app/broken_shaders.h"
 #include "app/capture.h"
 #include "app/experiments/chart_point.h"
+#include "app/experiments/device_reference.h"
 #include "app/experiments/transport.h"
 #include "app/hosts/headless.h"
 #include "app/origin.h"
@@ -28,17 +29,18 @@ LayeredImage reference_for(const PointTask& task, const Shot& shot, const Refere
     goal.samples = task.reference_samples;
     goal.noise = task.reference_samples > 0 ? 0 : task.reference_noise;
     double told = 0;
-    ReferenceResult result =
-        reference_image(shot, settings, task.warm_up + task.frames - 1, goal, [&](const ReferenceProgress& progress) {
-            if (progress.share >= told + 0.25) {
-                told = progress.share;
-                say(fmt::format("reference of {}, {}: {:.0f} %", task.session.shot,
-                                settings.bounces < 0 ? "all bounces" : fmt::format("{} bounces", settings.bounces),
-                                100 * progress.share));
-            }
-            return true;
-        });
-    return std::move(result.image);
+    auto tell = [&](const ReferenceProgress& progress) {
+        if (progress.share >= told + 0.25) {
+            told = progress.share;
+            say(fmt::format("reference of {}, {}: {:.0f} %", task.session.shot,
+                            settings.bounces < 0 ? "all bounces" : fmt::format("{} bounces", settings.bounces),
+                            100 * progress.share));
+        }
+        return true;
+    };
+    const int frame = task.warm_up + task.frames - 1;
+    if (task.device_reference) return device_reference(task.session, shot, settings, frame, goal, tell);
+    return reference_image(shot, settings, frame, goal, tell).image;
 }
 
 /// What an eye would see of it: light through the tone curve, occlusion as it is.

@@ -14,7 +14,7 @@ vec4 sample_scene_texture(TextureUse use, vec2 uv0, vec2 uv1, float footprint, f
     for (int i = 0; i < 8; ++i) {
         if (i != use.array) continue;
         ivec2 size = textureSize(scene_textures[i], 0).xy;
-        level = clamp(0.5 * log2(max(footprint * float(size.x * size.y), 1.0)), 0.0, coarsest);
+        level = coarsest > 0.0 ? clamp(0.5 * log2(max(footprint * float(size.x * size.y), 1.0)), 0.0, coarsest) : 0.0;
     }
     for (int i = 0; i < 8; ++i) {
         if (i == use.array) value = textureLod(scene_textures[i], at, level);

@@ -145,7 +145,7 @@ struct Way { // the first ray of a path
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, resolution))) return;
+    if (any(greaterThanEqual(pixel, resolution)) || frame_index < 0) return; // each frame adds: what reads its number runs in each
     vec4 mean = imageLoad(out_direct, pixel);
     float scene = scene_number();
     if (imageLoad(out_emission, pixel).a != scene) mean = vec4(0.0); // what moves leaves no trail
@@ -171,7 +171,7 @@ void main() {
         TracedHit hit = trace_nearest(origin, direction, 3.0e38, coverage);
         TracedSurface s;
         s.emission = vec3(0.0);
-        if (hit.draw != k_nothing) s = surface_at(hit, direction, 0.0, k_with_normal_maps | k_with_emission);
+        if (hit.draw != k_nothing) s = surface_at(hit, direction, k_with_normal_maps | k_with_emission);
         bool ends = hit.draw == k_nothing;
         if (path == k_before) {
             emission = ends ? environment(direction) : s.emission;

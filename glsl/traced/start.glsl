@@ -4,8 +4,10 @@
 #include "lib/frame.glsl"
 
 uniform sampler2D gbuffer_geometric_normal;
+#ifndef SURFACE_UPSAMPLE_GLSL // which reads these too
 uniform sampler2D gbuffer_normal;
 uniform sampler2D gbuffer_depth;
+#endif
 
 struct StartPoint {
     vec3 position, face, normal;

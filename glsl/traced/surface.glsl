@@ -35,8 +35,9 @@ vec3 unit_or(vec3 v, vec3 otherwise) {
 
 const int k_with_normal_maps = 1, k_with_emission = 2;
 
-// `footprint`: area over which textures are averaged, m². `parts`: what is looked up beside base colour and metallic.
-TracedSurface surface_at(TracedHit hit, vec3 direction, float footprint, int parts) {
+// `parts`: what is looked up beside base colour and metallic. Textures are read as they are, without mips, as the reference
+// does.
+TracedSurface surface_at(TracedHit hit, vec3 direction, int parts) {
     Draw draw = draws[hit.draw];
     Material material = materials[draw.material];
     Vertex corners[3];
@@ -52,7 +53,7 @@ TracedSurface surface_at(TracedHit hit, vec3 direction, float footprint, int par
     s.face = unit_or(across, -normalize(direction));
     if (dot(s.face, direction) > 0.0) s.face = -s.face;
     s.offset = safe_offset(s.position, edge1, edge2, s.face);
-    TrianglePoint point = triangle_point_of(corners, weight, max(length(across), 1.0e-30) / max(footprint, 1.0e-20));
+    TrianglePoint point = triangle_point_of(corners, weight, 1.0);
 
     vec3 normal = vec3(0.0);
     for (int k = 0; k < 3; ++k) normal += weight[k] * world_normal(draw, corners[k].normal_v.xyz);
@@ -65,7 +66,7 @@ TracedSurface surface_at(TracedHit hit, vec3 direction, float footprint, int par
             tangent += weight[k] * t.xyz;
             handedness += weight[k] * t.w;
         }
-        vec3 local = sample_at_point(material.normal_texture, point, 16.0).xyz * 2.0 - 1.0;
+        vec3 local = sample_at_point(material.normal_texture, point, 0.0).xyz * 2.0 - 1.0;
         local.xy *= material.normal_scale;
         tangent -= normal * dot(normal, tangent);
         if (dot(tangent, tangent) > 1.0e-12) {
@@ -74,11 +75,11 @@ TracedSurface surface_at(TracedHit hit, vec3 direction, float footprint, int par
         }
     }
     s.shading = dot(normal, s.face) < 0.0 ? -normal : normal;
-    s.base_colour = material.base_colour.rgb * point.colour.rgb * sample_at_point(material.base_colour_texture, point, 16.0).rgb;
-    vec2 rm = vec2(material.roughness, material.metallic) * sample_at_point(material.metallic_roughness_texture, point, 16.0).gb;
+    s.base_colour = material.base_colour.rgb * point.colour.rgb * sample_at_point(material.base_colour_texture, point, 0.0).rgb;
+    vec2 rm = vec2(material.roughness, material.metallic) * sample_at_point(material.metallic_roughness_texture, point, 0.0).gb;
     s.roughness = rm.x;
     s.metallic = rm.y;
-    s.emission = (parts & k_with_emission) != 0 ? material.emission * sample_at_point(material.emission_texture, point, 16.0).rgb : vec3(0.0);
+    s.emission = (parts & k_with_emission) != 0 ? material.emission * sample_at_point(material.emission_texture, point, 0.0).rgb : vec3(0.0);
     return s;
 }
 

@@ -19,10 +19,10 @@ bool is_before(TracedHit a, TracedHit b) {
     return a.t < b.t || (a.t == b.t && (a.draw < b.draw || (a.draw == b.draw && a.corner < b.corner)));
 }
 
-// A ray's own axes, z along the direction (Woop, Benthin, Wald, "Watertight ray/triangle intersection", JCGT 2013): dot
+// A ray's own axes across its direction (Woop, Benthin, Wald, "Watertight ray/triangle intersection", JCGT 2013): dot
 // products with these take what leads from the origin to a point there. Their entries are 0, 1 and one shear each.
 struct RayAxes {
-    vec3 origin, x, y, z;
+    vec3 origin, x, y, direction;
 };
 
 RayAxes axes_of(vec3 origin, vec3 direction) {
@@ -30,7 +30,7 @@ RayAxes axes_of(vec3 origin, vec3 direction) {
     int k = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
     vec3 x = vec3(k == 2, k == 0, k == 1), y = vec3(k == 1, k == 2, k == 0), z = vec3(k == 0, k == 1, k == 2);
     float along = dot(direction, z);
-    return RayAxes(origin, x - z * (dot(direction, x) / along), y - z * (dot(direction, y) / along), z / along);
+    return RayAxes(origin, x - z * (dot(direction, x) / along), y - z * (dot(direction, y) / along), direction);
 }
 
 // A triangle of three texels from `at` on. Rays do not slip between neighbours, nor through their corners: each corner has
@@ -42,9 +42,12 @@ bool hit_triangle(uint at, RayAxes ray, out float t, out vec2 uv, out uvec3 carr
     precise float ax = dot(a, ray.x), ay = dot(a, ray.y), bx = dot(b, ray.x), by = dot(b, ray.y), cx = dot(c, ray.x), cy = dot(c, ray.y);
     precise float u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax; // weights of a, b, c
     float sum = u + v + w;
-    t = (u * dot(a, ray.z) + v * dot(b, ray.z) + w * dot(c, ray.z)) / sum;
     uv = vec2(v, w) / sum;
-    return (min(u, min(v, w)) >= 0.0 || max(u, max(v, w)) <= 0.0) && sum != 0.0 && t > 0.0;
+    // By the plane: far corners of a triangle that is near would cancel.
+    vec3 normal = cross(b - a, c - a);
+    float slope = dot(normal, ray.direction);
+    t = dot(a, normal) / slope;
+    return (min(u, min(v, w)) >= 0.0 || max(u, max(v, w)) <= 0.0) && sum != 0.0 && slope != 0.0 && t > 0.0;
 }
 
 // One tree with the ray in its own space. `any`: the first hit that is found ends it.

@@ -10,9 +10,9 @@ uvec4 tree_texel(uint i) {
     return tree_texels[i];
 }
 #else
-uniform usampler2D traced_tree;
+layout(FORMAT_traced_tree) readonly uniform uimage2D traced_tree; // an image: software drivers read it with less ado
 uvec4 tree_texel(uint i) {
-    return texelFetch(traced_tree, ivec2(i & 8191u, i >> 13), 0);
+    return imageLoad(traced_tree, ivec2(i & 8191u, i >> 13));
 }
 #endif
 

@@ -41,8 +41,8 @@ uint next_listed(inout TreeWalk walk, float nearest) {
     uint leaf = 0u;
     while (leaf == 0u && walk.at < walk.end) {
         uvec4 node = tree_texel(walk.at);
-        vec3 enter = (vec3(node.xyz & 0xffffu) - walk.origin) * walk.inverse;
-        vec3 leave = (vec3(node.xyz >> 16) - walk.origin) * walk.inverse;
+        vec3 enter = (vec3(ivec3(node.xyz & 0xffffu)) - walk.origin) * walk.inverse;
+        vec3 leave = (vec3(ivec3(node.xyz >> 16)) - walk.origin) * walk.inverse;
         bool inside = max(max(enter.x, enter.y), max(enter.z, 0.0)) <= k_slack * min(min(leave.x, leave.y), min(leave.z, nearest));
         bool is_leaf = (node.w & k_leaf_bit) != 0u;
         walk.at = inside || is_leaf ? walk.at + 1u : node.w;
@@ -76,8 +76,8 @@ uint children_met(TreeWalk walk, uvec4 words, float nearest) {
     vec4 enter = vec4(0.0), leave = vec4(nearest);
     for (uint axis = 0u; axis < 3u; ++axis) {
         uvec4 sides = tree_texel(walk.at + axis);
-        vec4 low = (vec4(sides & 0xffffu) - walk.origin[axis]) * walk.inverse[axis];
-        vec4 high = (vec4(sides >> 16) - walk.origin[axis]) * walk.inverse[axis];
+        vec4 low = (vec4(ivec4(sides & 0xffffu)) - walk.origin[axis]) * walk.inverse[axis];
+        vec4 high = (vec4(ivec4(sides >> 16)) - walk.origin[axis]) * walk.inverse[axis];
         bool negative = ((walk.octant >> axis) & 1u) != 0u;
         enter = max(enter, negative ? high : low);
         leave = min(leave, negative ? low : high);

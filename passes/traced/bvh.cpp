@@ -26,6 +26,7 @@ class BvhPass : public Pass {
               "nodes of four children and a short stack, for GPUs; off: of one, without a stack");
         p.find("wide_nodes")->info.is_static = true; // shaders that name this pass by params_of walk by it
         p.add("leaf_size", leaf_size_, {1, k_max_leaf_triangles}, "triangles", "in a leaf, at most");
+        p.add("cut", cut_, "large triangles may lie in several leaves: fewer visits, a longer build");
         p.add("share_all", share_all_, "each mesh has a tree that its copies share; off: only those that move");
     }
 
@@ -35,7 +36,7 @@ class BvhPass : public Pass {
             1 + (share_all_ ? d.fact(&SceneFacts::instances) : d.fact(&SceneFacts::dynamic_instances));
         alpha_ = d.fact(&SceneFacts::alpha_tested_materials) + d.fact(&SceneFacts::blended_materials) > 0;
         // A triangle takes three texels. Nodes differ from scene to scene; few have more than one for two triangles.
-        const double per_triangle = 3 + (wide_nodes_ ? 1.5 : 4.0);
+        const double per_triangle = (cut_ ? 4.5 : 3) + (wide_nodes_ ? 1.5 : 4.0);
         tree_capacity_ =
             std::max(int64_t(top_texels(roots)) + int64_t(std::ceil(triangles * per_triangle)) + 4096, tree_grown_);
         if (wide_nodes_) {
@@ -111,7 +112,8 @@ class BvhPass : public Pass {
 
     /// Whether trees had to be built: anything but what moves by itself is new.
     bool build_trees(PassContext& c) {
-        const TreeSettings settings{wide_nodes_ ? TreeLayout::wide : TreeLayout::threaded, leaf_size_, share_all_};
+        const TreeSettings settings{wide_nodes_ ? TreeLayout::wide : TreeLayout::threaded, leaf_size_, cut_,
+                                    share_all_};
         const std::vector<AlphaSource> alpha = alpha_sources(c.materials());
         const Revision& geometry = c.revision(ScenePart::geometry);
         if (known_ && geometry == geometry_ && settings == settings_ && alpha == alpha_sources_ &&
@@ -147,7 +149,7 @@ class BvhPass : public Pass {
         }
     }
 
-    bool wide_nodes_ = false, share_all_ = false;
+    bool wide_nodes_ = false, share_all_ = false, cut_ = true;
     int leaf_size_ = 8;
     bool alpha_ = false, lacked_ = false;
     int64_t tree_capacity_ = 0, alpha_capacity_ = 0, tree_grown_ = 0, alpha_grown_ = 0;

@@ -40,6 +40,28 @@ bool inverse_of(const glm::mat4& world, glm::dmat4& inverse) {
     return largest < 1e18 && determinant > 1e-6 * size * size * size;
 }
 
+void clip(Bounds& bounds, const Bounds& to) {
+    bounds.min = glm::max(bounds.min, to.min);
+    bounds.max = glm::min(bounds.max, to.max);
+}
+
+/// The boxes of a triangle's parts below and above a plane, within `bounds`.
+void split_triangle(const glm::vec3 (&corners)[3], int axis, float position, const Bounds& bounds, Bounds& low,
+                    Bounds& high) {
+    for (int k = 0; k < 3; ++k) {
+        const glm::vec3 &a = corners[k], &b = corners[(k + 1) % 3];
+        if (a[axis] <= position) low.add(a);
+        if (a[axis] >= position) high.add(a);
+        if ((a[axis] < position) == (b[axis] < position) || a[axis] == position || b[axis] == position) continue;
+        glm::vec3 crossing = a + (b - a) * ((position - a[axis]) / (b[axis] - a[axis]));
+        crossing[axis] = position;
+        low.add(crossing);
+        high.add(crossing);
+    }
+    clip(low, bounds);
+    clip(high, bounds);
+}
+
 Bounds transformed(const Bounds& bounds, const glm::mat4& world) {
     Bounds out;
     for (int corner = 0; corner < 8; ++corner) {
@@ -97,16 +119,20 @@ uint32_t SceneTrees::add_alpha(const Sources& sources, const Triangle& triangle)
 
 int SceneTrees::add_tree(const Sources& sources, const std::vector<Triangle>& triangles) {
     if (triangles.empty()) return -1;
-    if (triangles.size() > k_max_tree_triangles)
+    if (triangles.size() + triangles.size() / 2 > k_max_tree_triangles)
         throw Error(fmt::format("invalid scene for traced rays: {} triangles in one tree: expected at most {}",
                                 grouped(triangles.size()), grouped(k_max_tree_triangles)));
     std::vector<Bounds> boxes(triangles.size());
     for (size_t i = 0; i < triangles.size(); ++i)
         for (const glm::vec3& corner : triangles[i].corners)
             boxes[i].add(corner);
-    const BinaryTree binary = build_tree(boxes, settings_.leaf_size);
+    const SplitPrimitive split = [&](uint32_t i, int axis, float position, const Bounds& bounds, Bounds& low,
+                                     Bounds& high) {
+        split_triangle(triangles[i].corners, axis, position, bounds, low, high);
+    };
+    const BinaryTree binary = build_tree(boxes, settings_.leaf_size, settings_.cut ? split : SplitPrimitive{});
     const uint64_t node_texels = texels_of_nodes(binary, settings_.layout);
-    const uint64_t end = rest_base_ + rest_.size() + node_texels + 3 * triangles.size();
+    const uint64_t end = rest_base_ + rest_.size() + node_texels + 3 * binary.order.size();
     if (end > k_max_tree_texels)
         throw Error(
             fmt::format("invalid scene for traced rays: its trees take {} texels of 16 bytes: expected at most {}",
@@ -117,14 +143,16 @@ int SceneTrees::add_tree(const Sources& sources, const std::vector<Triangle>& tr
     tree.first_node = uint32_t(rest_base_ + rest_.size());
     tree.nodes_an_octant = uint32_t(binary.nodes.size());
     tree.first_triangle = uint32_t(tree.first_node + node_texels);
-    rest_.reserve(rest_.size() + node_texels + 3 * triangles.size());
+    rest_.reserve(rest_.size() + node_texels + 3 * binary.order.size());
     write_nodes(binary, tree.grid, settings_.layout, rest_base_, rest_);
+    std::vector<uint32_t> alpha(triangles.size(), 0); // records; pieces of a triangle share one
     for (const uint32_t index : binary.order) {
         const Triangle& triangle = triangles[index];
+        const bool opaque = sources.alpha[triangle.material].mode == AlphaMode::opaque;
+        if (!opaque && !alpha[index]) alpha[index] = add_alpha(sources, triangle);
         rest_.push_back(texel_of(triangle.corners[0], triangle.draw));
         rest_.push_back(texel_of(triangle.corners[1], triangle.first_corner));
-        const bool opaque = sources.alpha[triangle.material].mode == AlphaMode::opaque;
-        rest_.push_back(texel_of(triangle.corners[2], opaque ? 0 : add_alpha(sources, triangle)));
+        rest_.push_back(texel_of(triangle.corners[2], alpha[index]));
     }
     counts_.nodes += binary.nodes.size();
     counts_.triangles += triangles.size();

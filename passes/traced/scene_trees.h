@@ -26,6 +26,7 @@ std::vector<AlphaSource> alpha_sources(const std::vector<Material>& materials);
 struct TreeSettings {
     TreeLayout layout = TreeLayout::threaded;
     int leaf_size = 4;
+    bool cut = false;       ///< large triangles may be in several leaves
     bool share_all = false; ///< every draw refers to its mesh's tree, those that stand too
     bool operator==(const TreeSettings&) const = default;
 };

@@ -40,6 +40,23 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pr
     return leaf;
 }
 
+RTCBounds embree_bounds(const Bounds& b) {
+    RTCBounds out{};
+    out.lower_x = b.min.x, out.lower_y = b.min.y, out.lower_z = b.min.z;
+    out.upper_x = b.max.x, out.upper_y = b.max.y, out.upper_z = b.max.z;
+    return out;
+}
+
+void split_primitive(const RTCBuildPrimitive* primitive, unsigned axis, float position, RTCBounds* low, RTCBounds* high,
+                     void* split) {
+    Bounds bounds, below, above;
+    bounds.min = {primitive->lower_x, primitive->lower_y, primitive->lower_z};
+    bounds.max = {primitive->upper_x, primitive->upper_y, primitive->upper_z};
+    (*static_cast<const SplitPrimitive*>(split))(primitive->primID, int(axis), position, bounds, below, above);
+    *low = embree_bounds(below);
+    *high = embree_bounds(above);
+}
+
 Bounds bounds_of(const RTCBounds& b) {
     Bounds out;
     out.min = {b.lower_x, b.lower_y, b.lower_z};
@@ -80,9 +97,14 @@ class Builder {
     Builder(const Builder&) = delete;
     Builder& operator=(const Builder&) = delete;
 
-    const BuiltNode* build(std::vector<RTCBuildPrimitive>& primitives, int leaf_size) {
+    const BuiltNode* build(std::vector<RTCBuildPrimitive>& primitives, size_t count, int leaf_size,
+                           const SplitPrimitive& split) {
         RTCBuildArguments arguments = rtcDefaultBuildArguments();
-        arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
+        arguments.buildQuality = split ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
+        if (split) {
+            arguments.splitPrimitive = split_primitive;
+            arguments.userPtr = const_cast<SplitPrimitive*>(&split);
+        }
         arguments.maxBranchingFactor = 2;
         arguments.maxDepth = k_max_tree_depth;
         arguments.maxLeafSize = unsigned(leaf_size);
@@ -90,16 +112,16 @@ class Builder {
         arguments.intersectionCost = 0.25f; // triangles of a leaf are tested together
         arguments.bvh = bvh_;
         arguments.primitives = primitives.data();
-        arguments.primitiveCount = primitives.size();
-        arguments.primitiveArrayCapacity = primitives.capacity();
+        arguments.primitiveCount = count;
+        arguments.primitiveArrayCapacity = primitives.size();
         arguments.createNode = create_node;
         arguments.setNodeChildren = set_children;
         arguments.setNodeBounds = set_bounds;
         arguments.createLeaf = create_leaf;
         const auto* root = static_cast<const BuiltNode*>(rtcBuildBVH(&arguments));
         if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE || !root)
-            throw Error(fmt::format("Embree could not build a tree over {} boxes (error {}{})", primitives.size(),
-                                    int(error), error == RTC_ERROR_OUT_OF_MEMORY ? ", out of memory" : ""));
+            throw Error(fmt::format("Embree could not build a tree over {} boxes (error {}{})", count, int(error),
+                                    error == RTC_ERROR_OUT_OF_MEMORY ? ", out of memory" : ""));
         return root;
     }
 
@@ -110,10 +132,11 @@ class Builder {
 
 } // namespace
 
-BinaryTree build_tree(std::span<const Bounds> boxes, int leaf_size) {
+BinaryTree build_tree(std::span<const Bounds> boxes, int leaf_size, const SplitPrimitive& split) {
     BinaryTree tree;
     if (boxes.empty()) return tree;
-    std::vector<RTCBuildPrimitive> primitives(boxes.size());
+    std::vector<RTCBuildPrimitive> primitives(split ? boxes.size() + boxes.size() / 2
+                                                    : boxes.size()); // room for pieces
     Bounds whole;
     for (size_t i = 0; i < boxes.size(); ++i) {
         const Bounds& b = boxes[i];
@@ -121,7 +144,8 @@ BinaryTree build_tree(std::span<const Bounds> boxes, int leaf_size) {
         whole.add(b);
     }
     Builder builder;
-    const BuiltNode* root = builder.build(primitives, std::clamp(leaf_size, 1, k_max_leaf_triangles));
+    const BuiltNode* root =
+        builder.build(primitives, boxes.size(), std::clamp(leaf_size, 1, k_max_leaf_triangles), split);
     tree.order.reserve(boxes.size());
     copy_node(*root, whole, 1, tree);
     return tree;

@@ -5,6 +5,7 @@
 #include "scene/scene.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -30,7 +31,12 @@ struct BinaryTree {
     Bounds bounds() const { return nodes.empty() ? Bounds{} : nodes.front().bounds; }
 };
 
-/// Boxes must be finite. Leaves hold at most `leaf_size` ≤ k_max_leaf_triangles. Throws Error when memory runs out.
-BinaryTree build_tree(std::span<const Bounds> boxes, int leaf_size);
+/// Cuts a primitive at `position` along `axis`: the boxes of what lies on either side within `bounds`.
+using SplitPrimitive =
+    std::function<void(uint32_t primitive, int axis, float position, const Bounds& bounds, Bounds& low, Bounds& high)>;
+
+/// Boxes must be finite. Leaves hold at most `leaf_size` ≤ k_max_leaf_triangles. With `split`, large primitives may be
+/// cut, and are then in several leaves. Throws Error when memory runs out.
+BinaryTree build_tree(std::span<const Bounds> boxes, int leaf_size, const SplitPrimitive& split = {});
 
 } // namespace bounce

@@ -304,5 +304,20 @@ class Refusals(Chart):
         self.assertEqual(len(self.rows("c")), 2)
 
 
+class References(Chart):
+    def test_the_device_renders_the_same_truth(self):
+        rows = {}
+        for by in ("cpu", "device"):
+            self.assert_good(self.run_program("chart", self.shot, "--graphs", "direct", "--size", "24x18", "--warmup", "0",
+                                              "--frames", "1", "--spp", "64", "--reference", by, "-o", by))
+            rows[by], = self.rows(by)
+        self.assertAlmostEqual(float(rows["cpu"]["bias"]), float(rows["device"]["bias"]), delta=0.01)
+        self.assertAlmostEqual(float(rows["cpu"]["full_bias"]), float(rows["device"]["full_bias"]), delta=0.03)
+        self.assertNotEqual(set(self.point_files("cpu")), set(self.point_files("device")), "points of either are told apart")
+
+    def test_nobody_else_renders_references(self):
+        self.assert_refused(self.run_program("chart", self.shot, "--reference", "gpu", "-o", "c"), "cpu, device")
+
+
 if __name__ == "__main__":
     unittest.main()

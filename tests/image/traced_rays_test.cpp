@@ -57,26 +57,29 @@ TEST_P(TracedScenes, AgreeWithEmbree) {
         run.state = state.scene;
         run.frame();
         const auto diagonal = run.facts.bounds_over_animation.diagonal();
-        int differ = 0, hits = 0;
+        int differ = 0, rims = 0, hits = 0;
         for (const ProbedRay& ray : run.read_buffer<ProbedRay>("probe.rays")) {
             const Hit hit = embree.intersect(ray.origin, ray.direction, std::numeric_limits<float>::infinity());
             EXPECT_EQ(ray.any != 0, ray.hit());
             hits += hit.valid();
-            if (hit.valid() != ray.hit()) {
-                ++differ;
-                continue;
+            if (!hit.valid() && !ray.hit()) continue;
+            if (hit.valid() && ray.hit()) {
+                const Primitive& primitive = state.scene.instances[ray.draw].primitive;
+                if (hit.geometry == ray.draw && hit.triangle == (ray.corner - primitive.first_index) / 3) continue;
+                if (std::abs(hit.distance - ray.t) <= 1e-5f * std::max(hit.distance, 0.1f * diagonal)) continue;
             }
-            if (!hit.valid()) continue;
-            const Primitive& primitive = state.scene.instances[ray.draw].primitive;
-            const bool same = hit.geometry == ray.draw && hit.triangle == (ray.corner - primitive.first_index) / 3;
-            if (!same && std::abs(hit.distance - ray.t) > 1e-5f * std::max(hit.distance, 0.1f * diagonal)) ++differ;
+            // A ray through the rim of what it meets first may fall on either side of it.
+            const bool ours = ray.hit() && (!hit.valid() || ray.t < hit.distance);
+            const glm::vec2 uv = ours ? ray.uv : glm::vec2(hit.u, hit.v);
+            ++(std::min({uv.x, uv.y, 1 - uv.x - uv.y}) < 1e-4f ? rims : differ);
         }
-        fmt::print("    {:<24} {:<6} {:<6} {} rays, {} hits, {} differ from Embree's\n",
+        fmt::print("    {:<24} {:<6} {:<6} {} rays, {} hits, {} differ from Embree's, {} at rims\n",
                    scene_case.shot[0] ? scene_case.shot : scene_case.needs,
                    wide == std::string("true") ? "wide" : "listed", shared == std::string("true") ? "shared" : "",
-                   count, hits, differ);
+                   count, hits, differ, rims);
         EXPECT_GT(hits, count / 20);
         EXPECT_LE(differ, scene_case.may_differ * count);
+        EXPECT_LE(rims, 1e-5 * count);
     }
 }
 
