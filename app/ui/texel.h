@@ -2,7 +2,7 @@
 // Exact values of single texels, and where a pixel is in the world.
 
 #include "gpu/objects.h"
-#include "graph/frame_constants.h"
+#include "gpu_scene/frame_constants.h"
 
 #include <array>
 #include <optional>

@@ -1,6 +1,6 @@
 #ifndef LIB_FRAME_GLSL
 #define LIB_FRAME_GLSL
-// The frame's constants, and what follows from them. passes/graph/frame_constants.cpp lists them. Plain uniforms: only
+// The frame's constants, and what follows from them. passes/gpu_scene/frame_constants.cpp lists them. Plain uniforms: only
 // those that a program really uses make its pass depend on them.
 
 uniform mat4 view;       // world → camera

@@ -1,6 +1,6 @@
 #ifndef LIB_SCENE_GLSL
 #define LIB_SCENE_GLSL
-// The scene's buffers, for any shader that asks for them. passes/graph/gpu_scene.h mirrors the structs (std430).
+// The scene's buffers, for any shader that asks for them. passes/gpu_scene/gpu_scene.h mirrors the structs (std430).
 // Define the ones that you want before including: SCENE_DRAWS, SCENE_MATERIALS, SCENE_LIGHTS, SCENE_GEOMETRY.
 #include "lib/light.glsl"
 

@@ -2,8 +2,8 @@
 // What a pass sees while it executes: its slots, the scene, and commands that bind everything by name. What it asks for
 // is recorded, and is from then on an input of the pass: a change of it makes the pass run again.
 
-#include "graph/frame_constants.h"
-#include "graph/gpu_scene.h"
+#include "gpu_scene/frame_constants.h"
+#include "gpu_scene/gpu_scene.h"
 #include "graph/model.h"
 
 #include <functional>

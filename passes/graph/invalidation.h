@@ -3,10 +3,10 @@
 // all that reaches it: its programs' text, its parameters, the parts of scene and frame that they really use, what it
 // looked at on the CPU, and the revisions of what it reads. No pass keeps a list of what it depends on.
 
+#include "core/revision.h"
 #include "graph/allocations.h"
 #include "graph/model.h"
 #include "graph/pass_inputs.h"
-#include "graph/revision.h"
 
 #include <map>
 #include <string>

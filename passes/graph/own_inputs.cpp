@@ -1,7 +1,7 @@
 #include "graph/own_inputs.h"
 
 #include "core/digest.h"
-#include "graph/frame_constants.h"
+#include "gpu_scene/frame_constants.h"
 #include "graph/graph.h"
 #include "graph/scope.h"
 

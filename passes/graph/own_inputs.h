@@ -1,10 +1,10 @@
 #pragma once
 // The digest of a pass's own inputs, without those that other passes make for it.
 
+#include "core/revision.h"
 #include "graph/allocations.h"
 #include "graph/model.h"
 #include "graph/pass_inputs.h"
-#include "graph/revision.h"
 
 namespace bounce {
 

@@ -2,7 +2,7 @@
 // What a pass looked at on the CPU while it executed (PassContext records it). Together with what reflection tells of
 // its programs, these are its inputs: as long as their values stand, it would look at the same again.
 
-#include "graph/gpu_scene.h"
+#include "gpu_scene/gpu_scene.h"
 
 #include <cstddef>
 #include <set>

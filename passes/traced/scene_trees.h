@@ -2,7 +2,7 @@
 // The scene's triangles as trees: one over all that stands, in the world, and one for each mesh that moves, in its own
 // space, which its copies share. A small tree over these, rebuilt each frame, ties them together.
 
-#include "graph/gpu_scene.h"
+#include "gpu_scene/gpu_scene.h"
 #include "traced/tree_layout.h"
 
 #include <array>

@@ -2,7 +2,7 @@
 // What a view of voxels as cubes should show: for each pixel the nearest box among all that are drawn, by testing every
 // one.
 
-#include "graph/frame_constants.h"
+#include "gpu_scene/frame_constants.h"
 #include "voxel/voxel_grid.h"
 
 #include <functional>

@@ -1,4 +1,5 @@
-"""Includes go one way: app -> techniques -> {voxel, surface} -> graph -> {gpu, scene} -> core; reference -> {scene, core}."""
+"""Includes go one way: app -> techniques -> {voxel, surface} -> graph -> gpu_scene -> {gpu, scene} -> core, and
+reference -> {scene, core}."""
 
 import pathlib
 import re
@@ -12,12 +13,13 @@ BELOW_TECHNIQUES = {
     "gpu": {"core"},
     "scene": {"core"},
     "reference": {"core", "scene"},
-    "graph": {"core", "gpu", "scene"},
-    "surface": {"core", "gpu", "scene", "graph"},
-    "voxel": {"core", "gpu", "scene", "graph"},
+    "gpu_scene": {"core", "gpu", "scene"},
+    "graph": {"core", "gpu", "scene", "gpu_scene"},
+    "surface": {"core", "gpu", "scene", "gpu_scene", "graph"},
+    "voxel": {"core", "gpu", "scene", "gpu_scene", "graph"},
 }
 # Any other folder of passes/ is a technique.
-TECHNIQUE = {"core", "gpu", "scene", "graph", "surface", "voxel"}
+TECHNIQUE = {"core", "gpu", "scene", "gpu_scene", "graph", "surface", "voxel"}
 
 # Folders of app/ that one another build on, lowest first: none includes what stands after it.
 WINDOW = ("app/ui", "app/panels", "app/viewer")

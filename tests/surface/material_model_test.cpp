@@ -4,7 +4,7 @@
 #include "core/paths.h"
 #include "gpu/objects.h"
 #include "gpu/program.h"
-#include "graph/frame_constants.h"
+#include "gpu_scene/frame_constants.h"
 #include "scene/lobe_albedo.h"
 #include "support/gpu_context.h"
 #include "support/scene_runner.h"

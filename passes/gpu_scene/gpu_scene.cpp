@@ -1,4 +1,4 @@
-#include "graph/gpu_scene.h"
+#include "gpu_scene/gpu_scene.h"
 
 #include "core/digest.h"
 #include "core/error.h"

@@ -3,8 +3,8 @@
 // frame. GpuTexture arrays are bucketed by size (for compute); raster passes bind 2D views of their layers, so nothing
 // is stored twice.
 
+#include "core/revision.h"
 #include "gpu/objects.h"
-#include "graph/revision.h"
 #include "scene/scene.h"
 
 #include <array>

@@ -2,7 +2,7 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "core/mip_chain.h"
-#include "graph/gpu_scene.h"
+#include "gpu_scene/gpu_scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "graph/frame_constants.h"
+#include "gpu_scene/frame_constants.h"
 
 #include "scene/camera_ray.h"
 #include "scene/near_plane.h"

@@ -2,8 +2,8 @@
 // The frame's constants: plain uniforms by name, all declared in glsl/lib/frame.glsl. They are no uniform block,
 // because a compiled program tells which plain uniforms it really uses, and so what a pass depends on.
 
+#include "core/revision.h"
 #include "gpu/program.h"
-#include "graph/revision.h"
 #include "scene/scene.h"
 
 #include <string>
