@@ -3,6 +3,8 @@
 #include "app/experiments/sweep.h"
 #include "core/error.h"
 #include "core/image.h"
+#include "core/json_edit.h"
+#include "core/json_text.h"
 #include "core/limits.h"
 #include "core/log.h"
 #include "core/parameters.h"
@@ -146,6 +148,27 @@ void shader(const uint8_t* data, size_t size) {
     translate_log("0:3(1): error: no\n" + std::string(view(data, size)), source, workspace().folder() / "glsl");
 }
 
+/// The edited text must read as what the same edit makes of the document.
+void json_edit(const uint8_t* data, size_t size) {
+    const std::string text(view(data, size));
+    may_refuse([&] {
+        nlohmann::json expected = parse_json(text, "input", JsonComments::allowed);
+        if (!expected.is_object()) return;
+        JsonEdit edit(text);
+        if (!expected.empty()) {
+            const std::string first = expected.begin().key();
+            edit.set({first}, "[7]");
+            expected[first] = {7};
+        }
+        edit.insert({"a list"}, 1, "true");
+        expected["a list"].push_back(true);
+        edit.set({"an object", "member"}, "{}");
+        expected["an object"]["member"] = nlohmann::json::object();
+        if (parse_json(edit.text(), "the edited text", JsonComments::allowed) != expected)
+            throw std::logic_error("an edit changed something else: " + edit.text());
+    });
+}
+
 void expression(const uint8_t* data, size_t size) {
     const auto lookup = [](const std::string& name) -> std::optional<double> {
         if (name == "width") return 640.0;
@@ -168,6 +191,7 @@ const std::vector<FuzzTarget>& fuzz_targets() {
         {"sweep", sweep},
         {"shader", shader},
         {"parameter_line", parameter_line},
+        {"json_edit", json_edit},
         {"expression", expression},
     };
     return targets;
