@@ -68,9 +68,9 @@ void main() {
     f.leaves = leaves_of(facing, (material.flags & 1u) != 0u);
     if (fill == fill_centre) {
         // Outside the triangle its plane may leave its box.
-        float least = min(surface_a[axis], min(surface_b[axis], surface_c[axis]));
-        float most = max(surface_a[axis], max(surface_b[axis], surface_c[axis]));
-        ivec3 voxel = unproject(column, int(floor(clamp(depth, least, most))), axis);
+        float nearest = min(surface_a[axis], min(surface_b[axis], surface_c[axis]));
+        float farthest = max(surface_a[axis], max(surface_b[axis], surface_c[axis]));
+        ivec3 voxel = unproject(column, int(floor(clamp(depth, nearest, farthest))), axis);
         if (surface_is_there(material, base.a, voxel_place(voxel, axis, surface_draw))) store(voxel, f, facing);
         return;
     }

@@ -26,14 +26,14 @@ void main() {
         vec3 x = world_position(pixel, depth);
         vec3 n = normalize(texelFetch(gbuffer_normal, pixel, 0).xyz);
         vec3 face = normalize(texelFetch(gbuffer_geometric_normal, pixel, 0).xyz);
-        float most = d_max * scene_diagonal;
+        float max_distance = d_max * scene_diagonal;
         int maps = batch_maps(iteration);
         for (int slot = 0; slot < maps; ++slot) {
             LdmRay ray;
             if (!ldm_surface_ray(slot, views[iteration + slot * ldm.batches], x, n, face, ray)) continue;
             float r = ray.distance;
-            vec2 open = vec2(r < k_no_hit ? 0.0 : 1.0, r < most ? 0.0 : 1.0);
-            if (falloff == falloff_quadratic && r < most) open.g = r * r / (most * most);
+            vec2 open = vec2(r < k_no_hit ? 0.0 : 1.0, r < max_distance ? 0.0 : 1.0);
+            if (falloff == falloff_quadratic && r < max_distance) open.g = r * r / (max_distance * max_distance);
             sum += open * ray.cosine;
         }
     }

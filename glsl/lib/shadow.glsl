@@ -33,9 +33,9 @@ int shadow_layer(Light light, vec3 position) {
     return light.shadow_base + (light.type == k_light_point ? cube_face(position - light.position) : 0);
 }
 
-// Distance along the view at which the ray through `ndc` meets the plane through `position`, kept within `most` metres of
+// Distance along the view at which the ray through `ndc` meets the plane through `position`, kept within `max_offset` metres of
 // `along`, the position's own distance: an edge-on plane is met anywhere.
-float shadow_plane_distance(ShadowView view, vec2 ndc, vec3 position, vec3 normal, float along, float most) {
+float shadow_plane_distance(ShadowView view, vec2 ndc, vec3 position, vec3 normal, float along, float max_offset) {
     // The first two rows of the matrix are the view's right and up, divided by its half width (at one metre).
     vec3 right = vec3(view.view_projection[0].x, view.view_projection[1].x, view.view_projection[2].x);
     vec3 up = vec3(view.view_projection[0].y, view.view_projection[1].y, view.view_projection[2].y);
@@ -43,7 +43,7 @@ float shadow_plane_distance(ShadowView view, vec2 ndc, vec3 position, vec3 norma
     vec3 from = position - view.origin;
     float met = view.range > 0.0 ? dot(normal, from - across) / dot(normal, view.direction)
                                  : dot(normal, from) / dot(normal, view.direction + across);
-    return abs(met - along) < most ? met : along + most * sign(met - along);
+    return abs(met - along) < max_offset ? met : along + max_offset * sign(met - along);
 }
 
 // The share of the (2r+1)² texels around `position` from which the light is seen. `normal`: the geometric one, facing the
@@ -77,7 +77,7 @@ float shadow_visibility(sampler2DArray shadow_map, ShadowView view, int layer, v
         bias *= 1.0 + 0.1 * sine / max(abs(dot(normal, ray)), 1.0e-3);
     }
     const float k_steepest = 256.0;
-    float most = k_steepest * texel * float(radius + 1);
+    float max_offset = k_steepest * texel * float(radius + 1);
 
     ivec2 size = textureSize(shadow_map, 0).xy;
     ivec2 centre = ivec2(floor(uv * vec2(size)));
@@ -88,7 +88,7 @@ float shadow_visibility(sampler2DArray shadow_map, ShadowView view, int layer, v
             float here = along;
             if (receiver_plane) {
                 vec2 ndc = (vec2(at) + 0.5) / vec2(size) * 2.0 - 1.0;
-                here = min(along, shadow_plane_distance(view, ndc, moved, normal, along, most));
+                here = min(along, shadow_plane_distance(view, ndc, moved, normal, along, max_offset));
             }
             lit += shadow_distance(view, texelFetch(shadow_map, ivec3(at, layer), 0).r) >= here - bias ? 1.0 : 0.0;
         }

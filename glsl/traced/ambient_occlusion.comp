@@ -22,7 +22,7 @@ void main() {
     if (start_at(pixel_of(texel, size), start)) {
         Directions set = directions_at(texel, rays);
         mat3 frame = frame_around(start.normal);
-        float most = d_max * scene_diagonal;
+        float max_distance = d_max * scene_diagonal;
         for (int i = 0; i < rays; ++i) {
             vec3 direction = frame * direction_of(set, i);
             uint seed = hash_combine(uint(texel.x) | (uint(texel.y) << 16), uint(i)) | 1u;
@@ -33,7 +33,7 @@ void main() {
             TracedHit hit = trace_nearest(start.origin, direction, 3.0e38, seed);
             if (hit.draw == k_nothing) continue;
             open.x -= 1.0;
-            if (hit.t < most) open.y -= falloff == 1 ? 1.0 - hit.t * hit.t / (most * most) : 1.0;
+            if (hit.t < max_distance) open.y -= falloff == 1 ? 1.0 - hit.t * hit.t / (max_distance * max_distance) : 1.0;
         }
     }
     imageStore(traced_openness, texel, vec4(open / float(rays), 0.0, 0.0));

@@ -88,7 +88,7 @@ TEST_F(LdmViews, LayersAndLengthsAreThoseOfTheLists) {
                           {"view_layers.columns", "2"},
                           {"view_layers.rows", "2"},
                           {"view_layers.layer", "1"},
-                          {"view_lengths.most", "8"}},
+                          {"view_lengths.max_length", "8"}},
                          {"view_layers", "view_lengths"});
         ASSERT_EQ(LdmLists(many->graph()).info.batches, k_maps);
         for (int map : {0, 3, 7}) {
