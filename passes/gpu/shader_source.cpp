@@ -338,7 +338,7 @@ class Expander {
                 continue;
             }
             bool known = std::any_of(out_.slots.begin(), out_.slots.end(),
-                                     [&](const ShaderSlot& s) { return s.identifier == slot.identifier; });
+                                     [&own = slot](const ShaderSlot& s) { return s.identifier == own.identifier; });
             if (!known) out_.slots.push_back(std::move(slot));
         }
     }
