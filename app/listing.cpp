@@ -37,13 +37,11 @@ static std::vector<std::string> metric_names() {
 }
 
 const std::vector<NameKind>& name_kinds() {
-    static const std::vector<NameKind> kinds = {{"shots", [] { return asset_names("shots"); }},
-                                                {"scenes", scene_names},
-                                                {"graphs", [] { return asset_names("graphs"); }},
-                                                {"presets", preset_names},
-                                                {"sweeps", [] { return asset_names("sweeps"); }},
-                                                {"tables", [] { return asset_names("tables"); }},
-                                                {"metrics", metric_names}};
+    static const std::vector<NameKind> kinds = {
+        {"shots", [] { return asset_names("shots"); }},     {"scenes", scene_names},
+        {"graphs", [] { return asset_names("graphs"); }},   {"presets", preset_names},
+        {"sweeps", [] { return asset_names("sweeps"); }},   {"tables", [] { return asset_names("tables"); }},
+        {"cases", [] { return asset_names("stability"); }}, {"metrics", metric_names}};
     return kinds;
 }
 

@@ -1,13 +1,13 @@
 #include "app/experiments/report.h"
 
+#include "app/experiments/csv.h"
+#include "app/experiments/html_page.h"
 #include "app/experiments/svg_scatter.h"
 #include "app/origin.h"
 #include "core/printable.h"
 #include "core/text.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <cstring>
 #include <fmt/format.h>
 #include <tuple>
 
@@ -35,24 +35,6 @@ static std::vector<Origin> origins_of(const std::vector<ChartPoint>& points) {
             known->date = std::max(known->date, own.date);
     }
     return origins;
-}
-
-static bool is_number(const std::string& text) {
-    char* end = nullptr;
-    std::strtod(text.c_str(), &end);
-    return !text.empty() && *end == '\0';
-}
-
-/// RFC 4180. A spreadsheet takes a text that begins with one of = + - @ for a formula and runs it: an apostrophe before
-/// it keeps it a text.
-static std::string csv_field(const std::string& raw) {
-    std::string text = printable(raw);
-    if (!text.empty() && std::strchr("=+-@\t", text[0]) && !is_number(text)) text.insert(0, "'");
-    if (text.find_first_of(",\"\n") == std::string::npos) return text;
-    std::string out = "\"";
-    for (char c : text)
-        out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + "\"";
 }
 
 static std::string value_of(const ChartPoint& point, const std::string& name) {
@@ -145,17 +127,7 @@ static std::string cost_cell(const ChartPoint& p) {
 
 std::string chart_html(const std::vector<ChartPoint>& points, const ChartView& view) {
     std::string out =
-        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-        // Pictures and style of its own, and no script at all: what a name holds can only ever be shown.
-        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
-        "'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n"
-        "<title>Bounce: error against time</title>\n<style>\n"
-        "body{font:14px/1.5 sans-serif;margin:2em auto;max-width:1400px;padding:0 1em;color:#222}\n"
-        "table{border-collapse:collapse;width:100%}td,th{padding:.3em .6em;border-bottom:1px solid "
-        "#ddd;text-align:right;vertical-align:top}\n"
-        "td:first-child,th:first-child{text-align:left}code{font-size:12px;background:#f4f4f4;padding:.1em .3em}\n"
-        "img{display:block;width:180px;image-rendering:auto}.front td:first-child{border-left:4px solid #0072b2}\n"
-        "</style></head><body>\n<h1>Error against time</h1>\n"
+        "<h1>Error against time</h1>\n"
         "<p>Errors are measured off depth and normal edges, against a path-traced reference of the graph's own light "
         "transport; in small print, against one of all light. Points with a bar on the left are beaten by no other in "
         "both time and error.</p>\n";
@@ -178,7 +150,10 @@ std::string chart_html(const std::vector<ChartPoint>& points, const ChartView& v
             out += fmt::format("<td><img alt=\"\" src=\"data:image/png;base64,{}\"></td>", escape_markup(picture));
         out += "</tr>\n";
     }
-    return out + "</table>\n</body></html>\n";
+    return html_page("error against time",
+                     "img{display:block;width:180px;image-rendering:auto}.front td:first-child{border-left:4px solid "
+                     "#0072b2}\n",
+                     out + "</table>\n");
 }
 
 std::string chart_markdown(const std::vector<ChartPoint>& points) {

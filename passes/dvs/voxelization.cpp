@@ -30,7 +30,7 @@ class VoxelizationPass : public Pass {
         p.add("planes", planes_, "exact hits on each voxel's mean plane (not for averaging=average)");
         p.add("static_once", static_once_, "voxelizes static geometry only when it changes, as published");
         p.add("capacity", capacity_, {1, 256}, "",
-              "capacity of the list of occupied voxels, in voxels of one face of the grid");
+              "initial capacity of the list of voxels, in faces of the grid; enlarged on overflow");
     }
 
     std::string skip_reason(const SceneFacts& facts) const override {
@@ -53,8 +53,9 @@ class VoxelizationPass : public Pass {
         int bricks = (resolution_ + 3) / 4;
         d.creates("voxels.bricks", texture_3d, "r8ui", {bricks, bricks, bricks}).incremental = static_once_;
         if (emission_) volume("voxels.emission", "rgba16f");
-        int64_t face = int64_t(resolution_) * resolution_;
-        std::string capacity = std::to_string(std::min<int64_t>(face * capacity_, face * resolution_));
+        const int64_t face = int64_t(resolution_) * resolution_;
+        list_capacity_ = std::min(std::max(face * capacity_, grown_), face * resolution_);
+        const std::string capacity = std::to_string(list_capacity_);
         auto list = [&](const char* name, const std::string& count, int stride) {
             d.creates_buffer(name, count, stride).incremental = static_once_;
         };
@@ -92,6 +93,15 @@ class VoxelizationPass : public Pass {
         bool dynamic = d.fact(&SceneFacts::dynamic_instances) > 0;
         if (dynamic) d.uses("clear_dynamic"), d.uses("forget_dynamic");
     }
+
+    /// How many voxels were dropped is not told, only by how many fragments: so it grows by steps.
+    bool needs_larger_buffers(const std::vector<int64_t>& counted) override {
+        const int64_t all = int64_t(resolution_) * resolution_ * resolution_;
+        if (counted.size() < 3 || counted[2] <= 0 || list_capacity_ >= all) return false;
+        grown_ = std::min(4 * list_capacity_, all);
+        return true;
+    }
+    void reset_capacity() override { grown_ = 0; }
 
     void execute(PassContext& c) override {
         float brightest = 0;
@@ -186,6 +196,7 @@ class VoxelizationPass : public Pass {
     Route route_ = Route::raster;
     Averaging averaging_ = Averaging::average;
     bool static_once_ = true, emission_ = false, planes_ = false;
+    int64_t list_capacity_ = 0, grown_ = 0; ///< entries of the list; what overflow asked for
     int capacity_ = 32;
 };
 

@@ -1,4 +1,4 @@
-#include "app/experiments/stability.h"
+#include "app/experiments/flicker.h"
 
 #include "app/broken_shaders.h"
 #include "core/error.h"
@@ -9,7 +9,7 @@
 
 namespace bounce {
 
-static std::vector<float> luminance_of(Session& session, const std::string& resource) {
+std::vector<float> luminance_of(Session& session, const std::string& resource) {
     throw_if_broken(session, "nothing was measured");
     const GpuTexture* texture = session.graph().texture(resource);
     if (!texture || texture->desc().kind != TextureKind::texture_2d)
@@ -26,7 +26,7 @@ static std::vector<float> luminance_of(Session& session, const std::string& reso
     return luminance;
 }
 
-StabilityFigures measure_stability(Session& session, const std::string& resource, int frames) {
+FlickerFigures measure_flicker(Session& session, const std::string& resource, int frames) {
     if (frames < 3) throw Error("stability needs at least 3 frames");
     std::vector<float> before, last, magnitudes;
     double sum = 0, first_squares = 0, second_squares = 0;
@@ -51,7 +51,7 @@ StabilityFigures measure_stability(Session& session, const std::string& resource
         before = std::move(last);
         last = std::move(now);
     }
-    StabilityFigures figures;
+    FlickerFigures figures;
     figures.frames = frames;
     figures.mean = sum / double(count);
     double scale = figures.mean > 0 ? 1 / figures.mean : 0;

@@ -1,0 +1,19 @@
+#pragma once
+// What the stability suite writes: a row a case, a column a graph, and behind each figure the curve over the ladder.
+
+#include "app/experiments/stability_suite.h"
+#include "app/origin.h"
+
+namespace bounce {
+
+std::string stability_markdown(const std::vector<StabilityRow>& rows, const Origin& origin);
+/// A line for each rung of each cell.
+std::string stability_csv(const std::vector<StabilityRow>& rows);
+std::string stability_json(const std::vector<StabilityRow>& rows, const Origin& origin);
+std::string stability_html(const std::vector<StabilityRow>& rows, const Origin& origin);
+/// stability.md, .csv, .json and .html in `folder`. Throws Error.
+void write_stability(const std::vector<StabilityRow>& rows, const Origin& origin, const std::filesystem::path& folder);
+/// "12.3 %", with the mark's verdict: "12.3 % ✗".
+std::string cell_text(const StabilityCase& which, const StabilityCell& cell);
+
+} // namespace bounce
