@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
     add_compare_command(app, chosen);
     add_chart_command(app, chosen);
     add_table_command(app, chosen);
+    add_ablate_command(app, chosen);
     add_stability_command(app, chosen);
     add_list_command(app, chosen);
     add_completion_command(app, chosen);

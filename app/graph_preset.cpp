@@ -1,4 +1,4 @@
-#include "app/ui/graph_preset.h"
+#include "app/graph_preset.h"
 
 #include "core/error.h"
 #include "core/image.h"
@@ -88,7 +88,7 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
 
 } // namespace
 
-std::string graph_preset_text(const Session& session, const fs::path& path) {
+std::string graph_preset_text(const Session& session, const fs::path& path, const std::string& about) {
     const GraphModel& model = session.graph().model();
     const fs::path& file = model.file().path;
     const auto& chain = model.file().files;
@@ -100,7 +100,7 @@ std::string graph_preset_text(const Session& session, const fs::path& path) {
         OrderedJson departures = graph_departures(whole, with_panel_values(whole, model));
         if (is_own) return edited(file, departures);
         OrderedJson root = {{"version", 1}, {"extends", extends_name(file, path)}};
-        root["about"] = "Values set in the window over " + model.file().name + ".";
+        root["about"] = about.empty() ? "Values set in the window over " + model.file().name + "." : about;
         root.update(departures);
         return graph_text(root);
     } catch (const OrderedJson::exception& error) {

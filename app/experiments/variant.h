@@ -1,0 +1,59 @@
+#pragma once
+// A shot through a graph with other settings, one after the other: what each costs, and how far it is from the same
+// reference. Experiments that compare settings (ablate, tune) measure by it.
+
+#include "app/session.h"
+#include "core/image.h"
+
+#include <map>
+#include <memory>
+
+namespace bounce {
+
+/// What differs from the graph as its file has it.
+struct Variant {
+    std::map<std::string, std::string> sets; ///< "pass.name" → --set text
+    std::map<std::string, bool> switches;    ///< pass → on or off
+    bool operator==(const Variant&) const = default;
+    auto operator<=>(const Variant&) const = default;
+    /// "gather.interleave=4, filter off"; "as it is" for none.
+    std::string text() const;
+};
+
+struct VariantFigures {
+    double ms = 0;                      ///< a frame
+    uint64_t bytes = 0;                 ///< of the plan
+    double error = 0, error_spread = 0; ///< relative RMSE without the reference's noise; its standard deviation over
+                                        ///< the frames, where the shot stands still
+    double bias = 0;
+    Image picture; ///< of the parts that are compared, last frame
+};
+
+class VariantMeasurer {
+  public:
+    /// Opens the shot and renders its reference of the graph's own transport, with so many samples a pixel. `options`
+    /// holds for every variant. Throws Error.
+    VariantMeasurer(const SessionOptions& options, int samples, int frames);
+    ~VariantMeasurer();
+
+    /// Throws Error where the graph does not work so; the measurer then stays usable.
+    VariantFigures measure(const Variant& variant);
+
+    Session& session() { return *session_; }
+    const Image& reference() const { return truth_part_; }
+
+    /// The session's graph is that of the variant from here on. Throws Error.
+    void use(const Variant& variant);
+
+  private:
+    std::unique_ptr<Session> session_;
+    int frames_;
+    bool still_ = false;
+    std::map<std::string, std::string> own_sets_; ///< of every parameter, before any variant
+    std::map<std::string, bool> own_switches_;
+    std::string parts_;
+    LayeredImage truth_;
+    Image truth_part_;
+};
+
+} // namespace bounce
