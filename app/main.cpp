@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
     add_table_command(app, chosen);
     add_ablate_command(app, chosen);
     add_stability_command(app, chosen);
+    add_tune_command(app, chosen);
     add_list_command(app, chosen);
     add_completion_command(app, chosen);
     try {

@@ -23,6 +23,7 @@ void add_chart_command(CLI::App& app, CommandFunction& chosen);
 void add_table_command(CLI::App& app, CommandFunction& chosen);
 void add_ablate_command(CLI::App& app, CommandFunction& chosen);
 void add_stability_command(CLI::App& app, CommandFunction& chosen);
+void add_tune_command(CLI::App& app, CommandFunction& chosen);
 void add_list_command(CLI::App& app, CommandFunction& chosen);
 void add_completion_command(CLI::App& app, CommandFunction& chosen);
 

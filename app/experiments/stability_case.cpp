@@ -79,7 +79,7 @@ StabilityCase load_stability_case(const std::string& name) {
     which.name = path.stem().string();
     check_keys(json, "the case",
                {"about", "ladder", "unit", "names", "scenes", "shot", "set", "quantity", "summary", "against",
-                "expected", "resource", "size", "frames", "samples", "most"},
+                "expected", "resource", "size", "frames", "samples", "diffuse_only", "most"},
                errors);
     which.about = text_at(json, "about", "the case", errors, true);
     which.unit = text_at(json, "unit", "the case", errors, false);
@@ -90,6 +90,12 @@ StabilityCase load_stability_case(const std::string& name) {
     which.summary = StabilitySummary(choice(json, "summary", k_summaries, int(StabilitySummary::worst), errors));
     which.frames = whole_at(json, "frames", 1, 10000, which.quantity == StabilityQuantity::flicker ? 12 : 1, errors);
     which.samples = whole_at(json, "samples", 2, 1 << 20, which.samples, errors);
+    if (json.contains("diffuse_only")) {
+        if (json["diffuse_only"].is_boolean())
+            which.diffuse_only = json["diffuse_only"].get<bool>();
+        else
+            errors.add("diffuse_only: expected true or false");
+    }
     if (json.contains("size")) {
         const ordered_json& size = json["size"];
         const bool fits = size.is_array() && size.size() == 2 && size[0].is_number_integer() &&

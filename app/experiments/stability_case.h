@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ struct StabilityCase {
     std::string resource = "out.indirect_diffuse", expected;
     glm::ivec2 size{32};
     int frames = 1, samples = 256;
+    std::optional<bool> diffuse_only; ///< of the reference, instead of what the graph models
     nlohmann::ordered_json names, scenes, shot, sets, against;
 };
 

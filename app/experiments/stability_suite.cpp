@@ -29,6 +29,8 @@ class Measurement {
         const GraphModel model(read_graph_file(find_graph(graph)));
         parameters_ = model.parameter_names();
         bounces_ = model.file().transport.bounces;
+        if (which.ladder.size() > 1 && which.scenes.empty() && sets(which.ladder.front()) == sets(which.ladder.back()))
+            throw Error("the graph has none of the parameters that the ladder goes over");
     }
 
     double rung(double value) {
@@ -63,6 +65,10 @@ class Measurement {
     }
 
   private:
+    ParameterValues sets(double rung) const {
+        return sets_of_rung(which_, names_of_rung(which_, rung, false, bounces_), parameters_);
+    }
+
     std::unique_ptr<Session> open(const StabilityNames& names) {
         SessionOptions options;
         options.shot = write_rung(which_, names, folder_.path());
@@ -119,9 +125,13 @@ class Measurement {
         row.size = which_.size;
         row.frames = which_.frames;
         row.samples = which_.samples;
+        row.diffuse_only = which_.diffuse_only;
         const ErrorTableMeasured measured = measure_row(row, [](const std::string&) {});
         if (!measured.skipped.empty()) throw Error(measured.skipped);
-        return measured.errors[which_.quantity == StabilityQuantity::bias ? "bias" : "relative_rmse_denoised"];
+        const double figure =
+            measured.errors[which_.quantity == StabilityQuantity::bias ? "bias" : "relative_rmse_denoised"];
+        if (!std::isfinite(figure)) throw Error("what the graph models has none of this light");
+        return figure;
     }
 
     const StabilityCase& which_;

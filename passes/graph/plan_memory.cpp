@@ -83,6 +83,7 @@ struct TooLong {
     const char* side = "";
     int64_t length = 0;
     int64_t most = 0;
+    int axis = 0; ///< of the size
 };
 
 TooLong too_long(const TextureDesc& desc) {
@@ -91,9 +92,9 @@ TooLong too_long(const TextureDesc& desc) {
     const int64_t depth = volume                                       ? side
                           : desc.kind == TextureKind::texture_2d_array ? driver_limit(GL_MAX_ARRAY_TEXTURE_LAYERS)
                                                                        : 1;
-    if (desc.size.x > side) return {"wide", desc.size.x, side};
-    if (desc.size.y > side) return {"high", desc.size.y, side};
-    if (desc.size.z > depth) return {volume ? "deep" : "layers", desc.size.z, depth};
+    if (desc.size.x > side) return {"wide", desc.size.x, side, 0};
+    if (desc.size.y > side) return {"high", desc.size.y, side, 1};
+    if (desc.size.z > depth) return {volume ? "deep" : "layers", desc.size.z, depth, 2};
     return {};
 }
 
@@ -105,9 +106,9 @@ void check_plan_fits(GraphModel& model, const SceneFacts& facts, const Plan& pla
         const TooLong too = too_long(resource.texture);
         if (too.length == 0) continue;
         const std::string name = resource.name();
-        const Measure longest = [&name](const Plan& other) {
+        const Measure longest = [&](const Plan& other) {
             const PlanResource* same = other.find_resource(name);
-            return same ? double(too_long(same->texture).length) : 0.0;
+            return same ? double(same->texture.size[too.axis]) : 0.0;
         };
         const std::string remedy =
             Remedy(model, facts, plan).text(longest, [&](double length) { return grouped(uint64_t(length)); });

@@ -155,6 +155,12 @@ TEST_F(Stability, WhatCannotBeMeasuredIsTold) {
     EXPECT_THAT(measured(which).failure, HasSubstr("albedo"));
 }
 
+TEST_F(Stability, ALadderOfParametersThatAGraphLacksIsTold) {
+    StabilityCase which = load_stability_case("resolution");
+    which.sets = {{"no.such", "=n"}, {"shadow_maps.resolution", 64}};
+    EXPECT_THAT(measured(which).failure, HasSubstr("none of the parameters"));
+}
+
 TEST_F(Stability, FilesThatMeanNothingAreRefusedWhole) {
     EXPECT_THAT(refused("[]"), HasSubstr("object"));
     const std::string told = refused(
