@@ -22,10 +22,12 @@ double mean_of(const std::vector<float>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / double(std::max<size_t>(values.size(), 1));
 }
 
-/// One case with one graph.
-class Measurement {
+} // namespace
+
+class StabilityMeasurement::Rungs {
   public:
-    Measurement(const StabilityCase& which, const std::string& graph) : which_(which), graph_(graph) {
+    Rungs(const StabilityCase& which, const std::string& graph, const Variant& own)
+        : which_(which), graph_(graph), own_(own) {
         const GraphModel model(read_graph_file(find_graph(graph)));
         parameters_ = model.parameter_names();
         bounces_ = model.file().transport.bounces;
@@ -33,7 +35,7 @@ class Measurement {
             throw Error("the graph has none of the parameters that the ladder goes over");
     }
 
-    double rung(double value) {
+    double measure(double value) {
         const StabilityNames names = names_of_rung(which_, value, false, bounces_);
         switch (which_.quantity) {
         case StabilityQuantity::share: {
@@ -69,12 +71,21 @@ class Measurement {
         return sets_of_rung(which_, names_of_rung(which_, rung, false, bounces_), parameters_);
     }
 
+    /// The case's settings count more than the graph's own.
+    ParameterValues all_sets(const StabilityNames& names) const {
+        ParameterValues all(own_.sets.begin(), own_.sets.end());
+        for (auto& set : sets_of_rung(which_, names, parameters_))
+            all.push_back(std::move(set));
+        return all;
+    }
+
     std::unique_ptr<Session> open(const StabilityNames& names) {
         SessionOptions options;
         options.shot = write_rung(which_, names, folder_.path());
         options.graph = graph_;
         options.size = which_.size;
-        options.sets = sets_of_rung(which_, names, parameters_);
+        options.sets = all_sets(names);
+        options.switches.assign(own_.switches.begin(), own_.switches.end());
         if (which_.resource.find('+') == std::string::npos) options.resource = which_.resource;
         auto session = std::make_unique<Session>(options);
         throw_if_broken(*session, which_.name);
@@ -121,7 +132,8 @@ class Measurement {
         row.shot = write_rung(which_, names, folder_.path());
         row.graph = graph_;
         row.resource = which_.resource;
-        row.sets = sets_of_rung(which_, names, parameters_);
+        row.sets = all_sets(names);
+        row.switches.assign(own_.switches.begin(), own_.switches.end());
         row.size = which_.size;
         row.frames = which_.frames;
         row.samples = which_.samples;
@@ -136,12 +148,20 @@ class Measurement {
 
     const StabilityCase& which_;
     std::string graph_;
+    Variant own_;
     std::vector<std::string> parameters_;
     int bounces_ = -1;
     TemporaryFolder folder_;
 };
 
-} // namespace
+StabilityMeasurement::StabilityMeasurement(const StabilityCase& which, const std::string& graph, const Variant& own)
+    : which_(which), rungs_(std::make_unique<Rungs>(which_, graph, own)) {}
+
+StabilityMeasurement::~StabilityMeasurement() = default;
+
+void StabilityMeasurement::step() {
+    curve_.push_back(rungs_->measure(which_.ladder[curve_.size()]));
+}
 
 double summary_of(StabilitySummary summary, const std::vector<double>& curve) {
     switch (summary) {
@@ -163,9 +183,11 @@ StabilityCell measure_stability(const StabilityCase& which, const std::string& g
     const auto start = std::chrono::steady_clock::now();
     set_shader_errors_logged(false);
     try {
-        Measurement measurement(which, graph);
-        for (double rung : which.ladder)
-            cell.curve.push_back(measurement.rung(rung));
+        StabilityMeasurement measurement(which, graph);
+        while (!measurement.done()) {
+            measurement.step();
+            cell.curve = measurement.curve();
+        }
         cell.figure = summary_of(which.summary, cell.curve);
         cell.reached = std::abs(*cell.figure) <= which.most;
     } catch (const Error& error) {

@@ -2,8 +2,10 @@
 // Runs stability cases on graphs: a cell for each case and graph, with the curve over the case's ladder.
 
 #include "app/experiments/stability_case.h"
+#include "app/experiments/variant.h"
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 namespace bounce {
@@ -20,6 +22,26 @@ struct StabilityCell {
 struct StabilityRow {
     StabilityCase which;
     std::vector<StabilityCell> cells;
+};
+
+/// One case with one graph, rung by rung. Its session is its own: what else is shown stays as it is.
+class StabilityMeasurement {
+  public:
+    /// `own`: what is set of the graph besides what the case sets. Throws Error.
+    StabilityMeasurement(const StabilityCase& which, const std::string& graph, const Variant& own = {});
+    ~StabilityMeasurement();
+
+    bool done() const { return curve_.size() == which_.ladder.size(); }
+    /// Measures the next rung. Throws Error.
+    void step();
+    const StabilityCase& which() const { return which_; }
+    const std::vector<double>& curve() const { return curve_; }
+
+  private:
+    class Rungs;
+    StabilityCase which_;
+    std::unique_ptr<Rungs> rungs_;
+    std::vector<double> curve_;
 };
 
 /// What of a curve is held to the mark. The curve has at least one value.

@@ -16,6 +16,7 @@ void draw_scene_panel(PanelContext& context);      ///< shot, scene facts, light
 void draw_camera_panel(PanelContext& context);     ///< camera, bookmarks, time
 void draw_capture_panel(PanelContext& context);    ///< PNG, EXR, numbered frames, shot and command line, graph preset
 void draw_compare_panel(PanelContext& context);    ///< reference, split, error, the live point on a chart
+void draw_stability_panel(PanelContext& context);  ///< a case in which methods fail, on the shown graph; its curve
 void draw_log_panel(PanelContext& context);
 void draw_keys_panel(PanelContext& context);
 

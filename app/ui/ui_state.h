@@ -42,6 +42,7 @@ struct ParameterEdit {
 
 class LiveComparison;
 struct ConesState;
+class StabilityRun;
 
 struct UiState {
     // What the viewport shows: a hovered pass's output wins over a pinned one, that over the viewer's choice.
@@ -69,6 +70,7 @@ struct UiState {
 
     std::shared_ptr<LiveComparison> comparison; ///< made when its panel is first opened
     std::shared_ptr<ConesState> cones;          ///< likewise
+    std::shared_ptr<StabilityRun> stability;    ///< likewise
     bool redraw_panels = false; ///< set each frame by panels that move by themselves (progress, flicker)
 
     bool show_keys = false, show_log = false;

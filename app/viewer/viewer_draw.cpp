@@ -25,8 +25,10 @@ const std::vector<Tab> k_left = {{"Scene", draw_scene_panel},
                                  {"Capture", draw_capture_panel}};
 const std::vector<Tab> k_upper = {
     {"Graph", draw_graph_panel}, {"Resources", draw_resources_panel}, {"Shaders", draw_shaders_panel}};
-const std::vector<Tab> k_lower = {
-    {"Parameters", draw_parameters_panel}, {"Pixel", draw_inspector_panel}, {"Cones", draw_cones_panel}};
+const std::vector<Tab> k_lower = {{"Parameters", draw_parameters_panel},
+                                  {"Pixel", draw_inspector_panel},
+                                  {"Cones", draw_cones_panel},
+                                  {"Stability", draw_stability_panel}};
 
 /// A panel in which something goes wrong says so, and the frame goes on.
 void draw_panel(const Tab& tab, PanelContext& context) {
