@@ -1,7 +1,7 @@
 // Pictures, sequences, shots and presets as files, and the command that makes the picture again.
+#include "app/graph_preset.h"
 #include "app/panels/panel.h"
 #include "app/ui/captures.h"
-#include "app/graph_preset.h"
 #include "app/ui/keys.h"
 #include "app/ui/marks.h"
 #include "app/ui/shot_writer.h"

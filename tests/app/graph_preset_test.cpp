@@ -1,6 +1,6 @@
 // Presets: graphs that extend the loaded one by what the panels say.
-#include "app/session.h"
 #include "app/graph_preset.h"
+#include "app/session.h"
 #include "graph/graph_overlay.h"
 #include "support/errors.h"
 #include "support/gpu_context.h"
