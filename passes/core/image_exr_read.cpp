@@ -2,6 +2,7 @@
 #include "core/image_exr.h"
 
 #include "core/error.h"
+#include "core/exr_check.h"
 #include "core/input_file.h"
 #include "core/limits.h"
 #include "core/scanner.h"
@@ -230,6 +231,7 @@ ExrPicture read_exr_picture(const std::filesystem::path& path, ExrChannels chann
         Imf::Header::setMaxTileSize(k_max_picture_side, k_max_picture_side);
     });
     try {
+        check_exr(bytes);
         return Reader(bytes, channels).read();
     } catch (const std::exception& error) {
         throw Error("cannot read '" + path.string() + "' as an OpenEXR image: " + error.what());
