@@ -30,6 +30,7 @@ class Structure {
     // --- tokens ---
 
     std::string_view text(size_t at) const { return at < tokens_.size() ? tokens_[at].text : std::string_view(); }
+    bool is_word(size_t at) const { return at < tokens_.size() && tokens_[at].is_word(); }
     int line(size_t at) const { return tokens_.empty() ? 0 : tokens_[std::min(at, tokens_.size() - 1)].line; }
     [[noreturn]] void beyond(size_t at, const std::string& what) const { throw BeyondLimit(line(at), what); }
 
@@ -106,7 +107,7 @@ class Structure {
     /// "struct S { … } a, b;" from its first token; `open`: its brace.
     size_t structure(size_t at, size_t open, Storage storage) {
         GlslSize size = members(open);
-        if (tokens_[open - 1].is_word() && text(open - 1) != "struct") types_.define(text(open - 1), size);
+        if (is_word(open - 1) && text(open - 1) != "struct") types_.define(text(open - 1), size);
         size_t end = find_outside(closed(open), ";{}");
         for (const auto& [name, variable] : declarators(closed(open), end, size))
             account(name, variable, storage_of({at, open}, storage));
@@ -166,7 +167,7 @@ class Structure {
     /// "a[4], b = 1" behind a type.
     Variables declarators(size_t at, size_t end, const GlslSize& type) const {
         Variables variables;
-        while (at < end && tokens_[at].is_word()) {
+        while (at < end && is_word(at)) {
             size_t name = at++;
             double count = dimensions(at);
             variables.push_back({name, array_of(type, count)});
@@ -281,7 +282,7 @@ class Structure {
         size_t end = statement(body, 0, 1);
         GlslFunction& own = functions_.emplace_back(GlslFunction{name, line(at), double(end - body), {}});
         for (size_t i = body; i + 1 < end; ++i)
-            if (tokens_[i].is_word() && text(i + 1) == "(") own.calls.push_back(text(i));
+            if (is_word(i) && text(i + 1) == "(") own.calls.push_back(text(i));
         return end;
     }
 

@@ -8,6 +8,7 @@
 #include "core/limits.h"
 #include "core/log.h"
 #include "core/parameters.h"
+#include "gpu/shader_limits.h"
 #include "gpu/shader_source.h"
 #include "graph/expression.h"
 #include "graph/model.h"
@@ -145,6 +146,7 @@ void shader(const uint8_t* data, size_t size) {
     workspace().write("glsl/common.glsl", "uniform float common_scale = 1.0; //! [0, 2] a help\n");
     workspace().write("glsl/input.comp", view(data, size));
     const ShaderSource source = expand_shader("input.comp", workspace().folder() / "glsl", {}, {});
+    check_shader_limits(source, workspace().folder() / "glsl");
     translate_log("0:3(1): error: no\n" + std::string(view(data, size)), source, workspace().folder() / "glsl");
 }
 

@@ -48,6 +48,20 @@ class Limits : public testing::Test {
 
 } // namespace
 
+/// What is left open at the end is the driver's to tell; going through it stays within the text (sanitizers hold it to
+/// that).
+TEST_F(Limits, TextThatEndsAnywhere) {
+    const std::string whole =
+        "struct S { float a[3]; } s; layout(std430) buffer B { S list[]; };\n"
+        "float f(int n) { if (n <= 0) return 1.0; for (int i = 0; i < 4; ++i) { n += i; } return f(n - 1); }\n"
+        "void main() { do { switch (1) { case 1: f(2); } } while (false); float x[] = float[](1.0); }\n";
+    for (size_t length = 0; length <= whole.size(); ++length)
+        EXPECT_EQ(problem(whole.substr(0, length)), "") << whole.substr(0, length);
+    for (const char* body : {"if (depth <= 0.0> { f(1); }", "for (int i = 0; i < 3 { f(1);", "while (a[1) { f(2);",
+                             "do { f(", "f((((", "switch (1 { case 1: f("})
+        EXPECT_EQ(in_main(body), "") << body;
+}
+
 TEST_F(Limits, ArraysOfAMillionElements) {
     for (const char* declaration : {"float a[1000000];",
                                     "float[1000000] a;",
