@@ -52,7 +52,7 @@ class Limits : public testing::Test {
 /// that).
 TEST_F(Limits, TextThatEndsAnywhere) {
     const std::string whole =
-        "struct S { float a[3]; } s; layout(std430) buffer B { S list[]; };\n"
+        "struct S { float a[3]; } s; layout(std430) buffer own_B { S list[]; };\n"
         "float f(int n) { if (n <= 0) return 1.0; for (int i = 0; i < 4; ++i) { n += i; } return f(n - 1); }\n"
         "void main() { do { switch (1) { case 1: f(2); } } while (false); float x[] = float[](1.0); }\n";
     for (size_t length = 0; length <= whole.size(); ++length)
