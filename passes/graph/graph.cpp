@@ -194,7 +194,8 @@ void Graph::build_programs() {
                 text += source.text + '\0';
             Built& built = built_[node.id() + "/" + program->name()];
             bool judged = program->usable() || program->disabled() || !built.errors.empty();
-            if (built.text == text && program->errors().empty() && judged) {
+            const bool read = program->errors().empty();
+            if (built.text == text && read && built.read && judged) {
                 program->recall(built.errors); // what was wrong with this text still is
                 continue;
             }
@@ -203,7 +204,7 @@ void Graph::build_programs() {
             bool told = built.text == text && texts(built.errors) == texts(program->errors());
             for (const ShaderError& error : program->errors())
                 if (!told && shader_errors_logged()) spdlog::error("shader: {}", error.text());
-            built = {text, program->errors()};
+            built = {text, program->errors(), read};
             if (good && frames_ > 0) spdlog::info("shader: {} compiled", program->stages().front().string());
         }
     }

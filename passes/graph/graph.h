@@ -95,6 +95,7 @@ class Graph {
     struct Built {
         std::string text;
         std::vector<ShaderError> errors;
+        bool read = true; ///< false: the errors are of reading the files, and say nothing of the text
     };
 
     void plan_again(const SceneFacts& facts, glm::ivec2 size);

@@ -14,10 +14,12 @@
 #include "graph/model.h"
 #include "scene/shot.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
+#include <iterator>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -163,7 +165,9 @@ void json_edit(const uint8_t* data, size_t size) {
             expected[first] = {7};
         }
         edit.insert({"a list"}, 1, "true");
-        expected["a list"].push_back(true);
+        nlohmann::json& list = expected["a list"];
+        if (list.is_null()) list = nlohmann::json::array();
+        list.insert(list.begin() + std::min<std::ptrdiff_t>(1, std::ssize(list)), true);
         edit.set({"an object", "member"}, "{}");
         expected["an object"]["member"] = nlohmann::json::object();
         if (parse_json(edit.text(), "the edited text", JsonComments::allowed) != expected)

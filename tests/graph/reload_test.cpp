@@ -52,6 +52,25 @@ TEST_F(Reload, BrokenFixedBrokenFixed) {
     EXPECT_EQ(run.problems(), "");
 }
 
+/// What a file that is not there would have added is nothing: the text is the same without the line that asks for it.
+TEST_F(Reload, AnIncludeThatIsNotThereComesAndGoes) {
+    fill_shader("fill.comp", "a_image", "1");
+    GraphRunner run(graph_file(k_graph));
+    run.frame();
+    const std::string whole = root.read("glsl/fill.comp");
+    for (const char* line : {"#include \"none.glsl\"\n", "#include \"lib/none.glsl\"\n", "#include none\n"}) {
+        root.write("glsl/fill.comp", line + whole);
+        next(run);
+        EXPECT_THAT(run.problems(), HasSubstr("fill.comp:1: ")) << line;
+        EXPECT_EQ(red(run), 1);
+        root.write("glsl/fill.comp", whole);
+        next(run);
+        EXPECT_EQ(run.problems(), "") << line;
+        EXPECT_FALSE(run.graph.pass_is_stale("fill"));
+        EXPECT_EQ(red(run), 1);
+    }
+}
+
 /// A new plan (a slider, a resize) reads the shaders again; the text that is wrong is still wrong.
 TEST_F(Reload, AnErrorStaysUntilItsTextChanges) {
     fill_shader("fill.comp", "a_image", "gain", "uniform float gain = 1.0; //! [0, 9] gain");
