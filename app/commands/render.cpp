@@ -4,6 +4,7 @@
 #include "app/commands/command.h"
 #include "app/commands/option_checks.h"
 #include "app/commands/session_options.h"
+#include "app/experiments/error_over_frames.h"
 #include "app/hosts/headless.h"
 #include "app/print.h"
 #include "app/progress.h"
@@ -16,6 +17,7 @@
 
 #include <cstdio>
 #include <fmt/format.h>
+#include <optional>
 #include <thread>
 
 namespace bounce {
@@ -26,6 +28,7 @@ struct RenderArguments : SessionArguments {
     std::string output;
     std::string resource;
     std::string timings;
+    std::string reference;
     int frames = 1;
     bool watch = false;
     bool quiet = false;
@@ -72,6 +75,8 @@ int render(const RenderArguments& arguments) {
     SessionOptions options = arguments.options();
     check_output(arguments);
     options.resource = arguments.resource;
+    std::optional<ErrorOverFrames> errors;
+    if (!arguments.reference.empty()) errors.emplace(arguments.reference, arguments.resource);
     set_shader_errors_logged(arguments.watch);
     HeadlessContext context(arguments.device);
     spdlog::debug("{}", describe(context.capabilities()));
@@ -88,6 +93,7 @@ int render(const RenderArguments& arguments) {
         session.render(true);
         if (!arguments.watch) refuse_broken(session);
         if (every_frame) write_picture(session, numbered(arguments.output, frame), arguments.resource);
+        if (errors) errors->add(session, frame + 1, frame + 1 == arguments.frames);
         progress.update(double(frame + 1) / arguments.frames);
     }
     if (arguments.watch) refuse_broken(session);
@@ -96,6 +102,7 @@ int render(const RenderArguments& arguments) {
     if (!arguments.timings.empty()) write_timings(session, arguments.timings);
     if (arguments.quiet) return 0;
     print("{}", timing_table(session));
+    if (errors) print("{}", errors->text());
     print("{}\n", every_frame ? fmt::format("{} … {}", numbered(arguments.output, 0),
                                             numbered(arguments.output, arguments.frames - 1))
                               : arguments.output);
@@ -117,6 +124,11 @@ void add_render_command(CLI::App& app, CommandFunction& chosen) {
                      "render so many frames; the last is written, or all where the name holds %04d")
         ->check(whole_between(1, k_max_frames));
     command->add_option("--resource", arguments->resource, "write this one resource (gbuffer.normal …)")
+        ->check(not_empty());
+    command
+        ->add_option("--reference", arguments->reference,
+                     "an .exr to compare with after 1, 4, 16, 64 … frames and the last")
+        ->type_name("FILE")
         ->check(not_empty());
     command->add_option("--timings", arguments->timings, "write GPU times and bytes per pass to this .json")
         ->type_name("FILE")

@@ -21,8 +21,8 @@ using nlohmann::ordered_json;
 
 namespace {
 
-const std::vector<std::string> k_shared_keys{"shot",    "graph",        "size",     "samples", "resource",
-                                             "bounces", "diffuse_only", "multiple", "frames",  "requires"};
+const std::vector<std::string> k_shared_keys{"shot",         "graph",    "size",   "samples",  "resource", "bounces",
+                                             "diffuse_only", "multiple", "frames", "requires", "window"};
 
 int whole_number(const ordered_json& value, int low, int high, const std::string& where, ErrorList& errors) {
     if (value.is_number_integer() && value >= low && value <= high) return value.get<int>();
@@ -46,6 +46,8 @@ void read_row(const ordered_json& object, const std::string& where, ErrorTableRo
     number("bounces", -1, 64, row.bounces);
     number("multiple", 1, 16, row.multiple);
     number("frames", 1, 100000, row.frames);
+    number("window", 1, 255, row.window);
+    if (row.window % 2 == 0) errors.add(where + ", window: expected an odd number of pixels");
     if (object.contains("diffuse_only")) {
         if (object["diffuse_only"].is_boolean())
             row.diffuse_only = object["diffuse_only"].get<bool>();
@@ -164,8 +166,10 @@ ErrorTableMeasured measure_row(const ErrorTableRow& row, const std::function<voi
 
     ComparisonOptions comparison;
     comparison.parts = {row.resource};
+    comparison.window = row.window;
     const LayerComparison compared = compare_layers(picture, truth, comparison);
     measured.errors = compared.parts.front().figures;
+    measured.windowed = compared.parts.front().windowed;
     if (!measured.absolute) {
         for (const SurfaceComparison& surface : compare_surfaces(picture, truth, row.resource, compared.mask)) {
             const auto pixels = size_t(surface.figures["pixels"]);
@@ -192,6 +196,12 @@ std::string error_table_markdown(const ErrorTableFile& file, const std::vector<E
         out += " " + find_metric(name).title + " |";
         rule += " ---: |";
     }
+    const bool windows =
+        std::any_of(file.rows.begin(), file.rows.end(), [](const ErrorTableRow& row) { return row.window > 1; });
+    if (windows) {
+        out += " RMSE of means over N × N pixels |";
+        rule += " ---: |";
+    }
     if (surfaces.empty()) {
         out += " worst surface |";
         rule += " --- |";
@@ -213,6 +223,11 @@ std::string error_table_markdown(const ErrorTableFile& file, const std::vector<E
         }
         for (const std::string& name : file.metrics)
             out += " " + metric_text(find_metric(name), m.errors, m.absolute) + " |";
+        if (windows && row.window > 1)
+            out += fmt::format(" {} ({}×{}) |", metric_text(find_metric("relative_rmse"), m.windowed, m.absolute),
+                               row.window, row.window);
+        else if (windows)
+            out += " |";
         if (surfaces.empty()) {
             const auto worst = std::max_element(
                 m.surfaces.begin(), m.surfaces.end(),

@@ -6,9 +6,11 @@
 //     "rows": [{"name": "as published", "graph": "lrsm"},
 //              {"name": "walk", "graph": "lrsm_tuned", "set": {"gather.hit_lookup": "map"}, "multiple": 2},
 //              {"name": "and more", "adds": true, "set": {…}, "requires": "sponza/Sponza.gltf"}] }
-// A row may give any of shot, size, samples, resource, bounces, diffuse_only, multiple, frames and requires for itself;
+// A row may give any of shot, size, samples, resource, bounces, diffuse_only, multiple, frames, window and requires for
+// itself;
 // a row whose scene `requires` is not on the search path is skipped. `adds`: the settings of the row before hold, too.
-// `multiple`: the picture is that many times as wide and high as the reference, and is compared by means.
+// `multiple`: the picture is that many times as wide and high as the reference, and is compared by means. `window`: the
+// relative RMSE is told also after means over so many pixels a side of both (odd).
 
 #include "app/experiments/sweep.h"
 #include "core/metric_table.h"
@@ -28,7 +30,7 @@ struct ErrorTableRow {
     ParameterValues sets;
     std::vector<std::pair<std::string, bool>> switches; ///< pass → on or off
     glm::ivec2 size{128};                               ///< of the reference
-    int multiple = 1, frames = 1, samples = 1024;
+    int multiple = 1, frames = 1, samples = 1024, window = 1;
     std::optional<int> bounces; ///< of the reference; else the graph's own transport
     std::optional<bool> diffuse_only;
 };
@@ -48,9 +50,9 @@ struct SurfaceError {
 
 /// What a row measured.
 struct ErrorTableMeasured {
-    std::string skipped;   ///< the reason, where the row could not be measured: its scene is not there
-    bool absolute = false; ///< errors are told in AO units
-    MetricValues errors;
+    std::string skipped;           ///< the reason, where the row could not be measured: its scene is not there
+    bool absolute = false;         ///< errors are told in AO units
+    MetricValues errors, windowed; ///< the latter where the row has a window
     double frame_ms = 0;
     uint64_t bytes = 0;
     std::vector<SurfaceError> surfaces; ///< those that hold 1 % of the pixels or more, the largest first

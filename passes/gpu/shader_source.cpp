@@ -13,6 +13,7 @@
 #include "gpu/slot_reader.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <optional>
 #include <set>
@@ -235,14 +236,25 @@ class Expander {
                 {shown(includer, folder_), line.number, line.written.front(), ""});
     }
 
-    /// "#if name" and "#if !name" over a //! static bool become #if 1 or #if 0: what is behind them is known, too.
+    /// "#if name" and "#if !name" over a //! static bool become #if 1 or #if 0: what is behind them is known, too. So
+    /// do
+    /// "#if name == name_choice", != and >= over a //! static enumeration (by the order of its choices).
     std::string with_static_value(const std::string& directive) const {
         Scanner scanner(directive);
         if (!scanner.take_word("if")) return directive;
         bool negated = scanner.space().take('!');
-        auto value = static_bools_.find(std::string(scanner.space().word()));
-        if (value == static_bools_.end() || !scanner.space().at_end()) return directive;
-        return value->second != negated ? "if 1" : "if 0";
+        const std::string name(scanner.space().word());
+        if (auto value = static_bools_.find(name); value != static_bools_.end() && scanner.space().at_end())
+            return value->second != negated ? "if 1" : "if 0";
+        auto value = static_choices_.find(name);
+        if (negated || value == static_choices_.end()) return directive;
+        const bool equal = scanner.space().take("=="), unequal = !equal && scanner.take("!=");
+        if (!equal && !unequal && !scanner.take(">=")) return directive;
+        auto other = choice_values_.find(std::string(scanner.space().word()));
+        if (other == choice_values_.end() || !scanner.space().at_end()) return directive;
+        const bool same = value->second == other->second;
+        const bool holds = equal ? same : unequal ? !same : value->second >= other->second;
+        return holds ? "if 1" : "if 0";
     }
 
     /// Follows #if 0, #if 1 (and so #if over a //! static bool), #ifdef and #ifndef over the names that the text itself
@@ -303,8 +315,12 @@ class Expander {
         if (info.is_static) {
             auto value = statics_.find(info.name);
             std::string text = value != statics_.end() ? value->second : static_literal(info, info.default_value);
-            emit_instead(line, file, fmt::format("#define {} {}", info.name, text));
+            // An enumeration is a constant, which names in functions may hide: "#if" over it is followed here.
+            emit_instead(line, file,
+                         info.choices.empty() ? fmt::format("#define {} {}", info.name, text)
+                                              : fmt::format("const int {} = {};", info.name, text));
             if (text == "true" || text == "false") static_bools_[info.name] = text == "true";
+            if (!info.choices.empty()) static_choices_[info.name] = std::atoi(text.c_str());
         } else {
             emit(line, file);
         }
@@ -316,8 +332,10 @@ class Expander {
 
     /// An enumeration's values by name, as constants above all code: "visibility_cones" is 1.
     void name_choices(const ParameterInfo& info) {
-        for (size_t i = 0; i < info.choices.size(); ++i)
+        for (size_t i = 0; i < info.choices.size(); ++i) {
             choices_.push_back(fmt::format("const int {}_{} = {};", info.name, info.choices[i], i));
+            choice_values_[info.name + "_" + info.choices[i]] = int(i);
+        }
     }
 
     void take_slots(const CodeLine& line, const std::string& where, const fs::path& file) {
@@ -345,7 +363,9 @@ class Expander {
 
     const ShaderLimits& limits_ = shader_limits();
     std::map<std::string, bool> static_bools_;
-    std::vector<std::string> choices_; ///< constants that name the enumerations' values
+    std::map<std::string, int> static_choices_; ///< of //! static enumerations: the value's place among the choices
+    std::map<std::string, int> choice_values_;  ///< "visibility_cones" → 1
+    std::vector<std::string> choices_;          ///< constants that name the enumerations' values
     fs::path folder_;
     const Defines& defines_;
     const Defines& statics_;

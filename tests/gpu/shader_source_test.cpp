@@ -224,7 +224,7 @@ uniform float plain = 1.0; //! [0, 1] plain
 )");
     ShaderSource source = expand("main.comp");
     EXPECT_THAT(source.text, HasSubstr("#define cones 6\n#define reach (2.0)\n#define tint vec3(1,0.5,0)\n#define on "
-                                       "true\n#define mode 1\nuniform float plain"));
+                                       "true\nconst int mode = 1;\nuniform float plain"));
     EXPECT_EQ(source.parameters.size(), 6u);
     EXPECT_TRUE(source.parameters[0].is_static);
     EXPECT_THAT(expand("main.comp", {}, {{"cones", "9"}}).text, HasSubstr("#define cones 9\n"));
@@ -253,6 +253,30 @@ uniform sampler2D a_unknown;
     EXPECT_FALSE(off.slots[2].certain);
     EXPECT_THAT(on.text, HasSubstr("#if 1\nuniform sampler2D a_exact;"));
     EXPECT_THAT(off.text, HasSubstr("#if unknown\n")); // the compiler's own business
+}
+
+TEST_F(Source, StaticEnumerationsSteerWhichSlotsThereAre) {
+    folder.write("main.comp", R"(uniform int kind = 0; //! static {box, plane, triangle} kind
+uniform int other = 0; //! {one, two} other
+#if kind >= kind_plane
+uniform sampler2D a_planes;
+#endif
+#if kind == kind_triangle
+uniform sampler2D a_triangles;
+#endif
+#if kind != kind_box // a comment
+uniform sampler2D a_no_box;
+#endif
+#if other == other_two
+uniform sampler2D a_unknown;
+#endif
+)");
+    EXPECT_THAT(names(expand("main.comp")), ElementsAre("a.unknown"));
+    EXPECT_THAT(names(expand("main.comp", {}, {{"kind", "1"}})), ElementsAre("a.planes", "a.no_box", "a.unknown"));
+    const ShaderSource triangles = expand("main.comp", {}, {{"kind", "2"}});
+    EXPECT_THAT(names(triangles), ElementsAre("a.planes", "a.triangles", "a.no_box", "a.unknown"));
+    EXPECT_TRUE(triangles.slots[1].certain);
+    EXPECT_FALSE(triangles.slots[3].certain);
 }
 
 TEST_F(Source, ParametersOfIncludesBelongToTheStageAndMalformedOnesAreErrors) {
