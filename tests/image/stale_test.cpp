@@ -279,6 +279,12 @@ TEST_F(StaleMeans, AreThoseOfAFreshStart) {
 TEST_P(StaleParameters, ChangedAndChangedBackShowWhatAFreshStartShows) {
     SessionOptions given = options(GetParam());
     given.sets.emplace_back("graph.rebuild", "on_change");
+    // Published averages depend on the order in which fragments come: two fresh starts may differ.
+    const std::string averaging = "voxelization.averaging";
+    const GraphModel file(read_graph_file(find_graph(GetParam())));
+    const Parameter* published = file.find_parameter(averaging);
+    const bool by_sums = published && to_text(published->info, published->value) == "average";
+    if (by_sums) given.sets.emplace_back(averaging, "sum");
     Session session(given);
     const Parts base = rendered(session);
     const GraphModel& model = session.graph().model();
@@ -288,7 +294,7 @@ TEST_P(StaleParameters, ChangedAndChangedBackShowWhatAFreshStartShows) {
     for (size_t i = std::hash<std::string>()(GetParam()) % step; i < names.size(); i += step) {
         const std::string& name = names[i];
         const Parameter* parameter = model.find_parameter(name);
-        if (!parameter || name == "graph.rebuild") continue;
+        if (!parameter || name == "graph.rebuild" || (by_sums && name == averaging)) continue;
         const std::string before = to_text(parameter->info, parameter->value), after = another_value(*parameter);
         session.set_parameter(name, after, ParameterOrigin::panel);
         Parts now = rendered(session);
@@ -311,5 +317,5 @@ INSTANTIATE_TEST_SUITE_P(Graphs, Stale, testing::ValuesIn(k_tuned), [](auto& of)
 INSTANTIATE_TEST_SUITE_P(Graphs, StaleParameters,
                          testing::Values("direct", "dvs", "dvs_tuned", "hbao", "hbao_tuned", "ldm_ao", "ldm_ao_tuned",
                                          "ldm_environment", "ldm_indirect", "ldm_indirect_tuned", "lrsm", "lrsm_tuned",
-                                         "vct", "vct_tuned", "voxel_ao"),
+                                         "traced", "vct", "vct_tuned", "voxel_ao"),
                          [](auto& of) { return std::string(of.param); });

@@ -1,4 +1,5 @@
 // Accumulation over frames: what stands converges to what ever more rays would give; what moves is followed or dropped.
+#include "app/experiments/sweep.h"
 #include "app/session.h"
 #include "support/gpu_context.h"
 #include "support/temp_folder.h"
