@@ -1,4 +1,5 @@
 // Where the gathers of voxel methods take exact hits: with the same directions they find what traced rays find.
+#include "app/experiments/sweep.h"
 #include "app/session.h"
 #include "support/gpu_context.h"
 #include "support/temp_folder.h"
