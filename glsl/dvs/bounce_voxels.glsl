@@ -1,7 +1,8 @@
 #ifndef DVS_BOUNCE_VOXELS_GLSL
 #define DVS_BOUNCE_VOXELS_GLSL
 // One bounce of diffuse light between voxels (DVS, section IX): cones about each voxel's averaged normal, times its albedo,
-// added to its direct light: L = L_direct + ρ·(E/π).
+// added to its direct light: L = L_direct + ρ·(E/π). With sky_light, what no cone's voxels block brings the environment's.
+#include "lib/environment.glsl"
 #include "lib/material_model.glsl"
 #include "dvs/cone.glsl"
 #include "dvs/list.glsl"
@@ -17,6 +18,7 @@ uniform bool two_sided;
 uniform int cone_set = 3;        //! {six, six_tilted, spiral, four} four, as published
 uniform int spiral_cones = 4;    //! [1, 64] cones of the set spiral
 uniform bool interleave = false; //! neighbouring voxels take different cones: eight sets in turn
+uniform bool sky_light = false;  //! static light of the environment, too; off as published
 uniform float aperture = 45.0;   //! [1, 90] (degrees) of each cone, from side to side
 
 vec3 gathered(VoxelGrid grid, ivec3 voxel, vec3 n) {
@@ -28,7 +30,12 @@ vec3 gathered(VoxelGrid grid, ivec3 voxel, vec3 n) {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < cone_count(cone_set, spiral_cones); ++i) {
         vec4 cone = cone_of(cone_set, spiral_cones, i, part);
-        sum += cone.w * trace_cone(grid, apex, frame * cone.xyz, diameter, 0.0).colour;
+        vec3 direction = frame * cone.xyz;
+        Traced traced = trace_cone(grid, apex, direction, diameter, 0.0);
+        sum += cone.w * traced.colour;
+#if sky_light
+        sum += cone.w * (1.0 - traced.occlusion) * environment(direction);
+#endif
     }
     return sum;
 }

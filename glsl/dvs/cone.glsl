@@ -25,10 +25,14 @@ uniform float hit_aperture = 2.0;     //! [0, 90] (degrees) hit_then_sample: of 
 uniform float hit_threshold = 0.5;    //! [0.05, 0.99] hit_then_sample: occlusion from which the cone counts as blocked
 uniform float hit_radius = 1.0;       //! [0.25, 16] (voxels) hit_then_sample: radius of the sphere that is looked up
 
+// Where no directional volume is read none need be there.
 #if hit_then_sample
 #if exact_hits
-#define DVS_WITHOUT_DIRECTIONS // no directional volume is read, so that none need be there
+#define DVS_WITHOUT_DIRECTIONS
 #endif
+#endif
+#ifdef DVS_HITS_TRIANGLES
+#define DVS_WITHOUT_DIRECTIONS
 #endif
 #ifndef DVS_WITHOUT_DIRECTIONS
 uniform sampler3D dvs_directional; // six tiles; from the base level on, or from half the resolution

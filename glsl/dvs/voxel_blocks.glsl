@@ -36,6 +36,9 @@ bool voxel_blocks(VoxelGrid grid, ivec3 voxel, vec3 origin, vec3 direction, floa
         if (t < 2.0) return false;
         faces = size < 0.3 || ((ways & (ways >> 1) & 21u) != 0u && facing < -facing_threshold * size);
     }
+#ifdef CHOOSES_HITS
+    if (hit == hit_voxel) return faces;
+#endif
     if (!faces || surface.a > 0.99) return faces;
     vec3 start = origin - vec3(voxel) - 0.5; // from the voxel's centre
     float side = walk.front ? 1.0 : -1.0, plane = surface.a * size;

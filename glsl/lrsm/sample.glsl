@@ -14,7 +14,6 @@
 uniform sampler2DArray lrsm_radiance; // R·α, ⟨n·l⟩·α
 uniform sampler2DArray lrsm_normal;   // n·α, α
 uniform sampler2DArray lrsm_depth;    // z·α, z²·α, α; z warped to its layer
-uniform sampler2D lrsm_normal_table;  // Φ over [−4, 4]
 layout(std430) readonly buffer lrsm_partitions { Partition partitions[]; };
 layout(std430) readonly buffer lrsm_table { int table[]; };
 
@@ -25,14 +24,20 @@ uniform float depth_window = 1.0;        //! [0.25, 4] V's range as a multiple o
 uniform float smallest_sigma = 0.004;    //! [0, 0.1] floor of the depth's standard deviation, as a share of the layer's range
 uniform float finest_mip = 0.0;          //! [0, 10] mips of the layers finer than this one are not used (Fig. 8)
 uniform float smallest_cosine = 0.05;    //! [0.001, 1] lit_fraction: floor of ⟨n·l⟩
-uniform bool formula_for_cdf = false;    //! Φ by a formula instead of the table
+uniform bool formula_for_cdf = false;    //! static Φ by a formula instead of the table
+#if !formula_for_cdf
+uniform sampler2D lrsm_normal_table; // Φ over [−4, 4]
+#endif
 
 // Φ(x): the table, linearly between its entries; or the logistic approximation of Bowling et al. 2009 (error < 1.4e-4).
 float normal_cdf(float x) {
-    if (formula_for_cdf) return 1.0 / (1.0 + exp(-x * (1.5976 + 0.07056 * x * x)));
+#if formula_for_cdf
+    return 1.0 / (1.0 + exp(-x * (1.5976 + 0.07056 * x * x)));
+#else
     float size = float(textureSize(lrsm_normal_table, 0).x);
     float at = (clamp(x, -4.0, 4.0) + 4.0) / 8.0 * (size - 1.0) + 0.5;
     return textureLod(lrsm_normal_table, vec2(at / size, 0.5), 0.0).r;
+#endif
 }
 
 // Eq. 12, in warped units.

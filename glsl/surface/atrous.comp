@@ -8,12 +8,14 @@ layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D gbuffer_normal;
 uniform sampler2D gbuffer_depth;
 uniform sampler2D filter_input;
+uniform sampler2D filter_frames; //! optional, neutral 1 // that the input holds (surface/temporal.comp)
 layout(FORMAT_filter_output) writeonly uniform image2D filter_output;
 
 uniform int step = 1;                //! [1, 64] (texels) between the texels that are averaged
 uniform int radius = 1;              //! [0, 2] steps to either side: 3 × 3 or 5 × 5 texels; 0: nothing is filtered
 uniform float normal_power = 16.0;   //! [0, 256] weights fall with ⟨n·n'⟩ to this power
 uniform bool guided = false;         //! static the input's a is each texel's width of filter, in texels
+uniform float narrow_from = 4.0;     //! [1, 65536] frames from which on neighbours count less: the filter ends as the mean converges
 uniform float plane_distance = 0.01; //! [1e-4, 1] plane distance with weight 1/e, share of the view distance
 
 ivec2 pixel_of(ivec2 texel, ivec2 size) {
@@ -29,6 +31,7 @@ void main() {
     float total = 0.0;
     vec3 position = world_position(pixel, max(depth, 1.0e-30)), n = texelFetch(gbuffer_normal, pixel, 0).xyz;
     float tolerance = plane_distance * length(position - camera_position);
+    float share = min(narrow_from / max(texelFetch(filter_frames, min(texel, textureSize(filter_frames, 0) - 1), 0).r, 1.0), 1.0);
     for (int y = -radius; y <= radius; ++y) {
         for (int x = -radius; x <= radius; ++x) {
             ivec2 at = texel + step * ivec2(x, y);
@@ -40,6 +43,7 @@ void main() {
             vec2 tap = radius == 1 ? vec2(2 - abs(ivec2(x, y))) : vec2(6, 6) - vec2(abs(ivec2(x, y))) * 2.0 - vec2(max(abs(ivec2(x, y)) - 1, 0));
             float off_plane = dot(n, world_position(there, its) - position) / tolerance;
             float weight = tap.x * tap.y * pow(max(dot(n, texelFetch(gbuffer_normal, there, 0).xyz), 0.0), normal_power) * exp(-off_plane * off_plane);
+            if (x != 0 || y != 0) weight *= share;
 #if guided
             float away2 = float(step * step) * dot(vec2(x, y), vec2(x, y));
             weight *= exp(-away2 / max(own.a * own.a, 1.0e-6));

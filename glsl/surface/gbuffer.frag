@@ -11,6 +11,7 @@ in Surface {
     vec4 tangent;
     vec4 uv;
     vec4 colour;
+    vec3 motion;
 } surface;
 flat in uint surface_material;
 flat in uint surface_draw;
@@ -22,6 +23,7 @@ layout(location = 1) out vec4 normal;           // shading normal, world
 layout(location = 2) out vec4 geometric_normal; // of the triangle, world
 layout(location = 3) out vec2 roughness_metallic;
 layout(location = 4) out vec4 emission; // radiance, W/(sr·m²)
+layout(location = 5) out vec4 motion;   // to where the surface was a frame ago, metres
 
 void main() {
     Material material = materials[surface_material];
@@ -46,5 +48,6 @@ void main() {
     normal = vec4(shading, 0.0);
     geometric_normal = vec4(face, 0.0);
     roughness_metallic = clamp(vec2(material.roughness * rm.x, material.metallic * rm.y), 0.0, 1.0);
+    motion = vec4(surface.motion, 0.0);
     emission = vec4(min(material.emission * glow, vec3(65504.0)), 0.0);
 }

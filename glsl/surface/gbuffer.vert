@@ -10,6 +10,7 @@ out Surface {
     vec4 tangent;
     vec4 uv; // TEXCOORD_0, TEXCOORD_1
     vec4 colour;
+    vec3 motion; // to where it was a frame ago, metres
 } surface;
 flat out uint surface_material;
 flat out uint surface_draw;
@@ -20,6 +21,7 @@ void main() {
     surface.position = position.xyz;
     surface.normal = world_normal(draw, vertex_normal_v.xyz);
     surface.tangent = world_tangent(draw, vertex_tangent);
+    surface.motion = (draw.previous_world * vec4(vertex_position_u.xyz, 1.0)).xyz - position.xyz;
     surface.uv = vec4(vertex_position_u.w, vertex_normal_v.w, vertex_uv1);
     surface.colour = vertex_colour();
     surface_material = draw.material;

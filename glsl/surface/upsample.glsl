@@ -4,9 +4,7 @@
 // samples: a box of `interleave` texels (which so holds each set of samples once), times how well a texel's surface agrees
 // in normal and in distance to the pixel's plane.
 #include "lib/frame.glsl"
-
-uniform sampler2D gbuffer_normal;
-uniform sampler2D gbuffer_depth;
+#include "surface/gbuffer_depth.glsl"
 
 uniform float normal_power = 16.0;     //! [0, 256] upsampling: weights fall with ⟨n·n'⟩ to this power
 uniform float plane_distance = 0.01;   //! [1e-4, 1] upsampling: plane distance with weight 1/e, share of the view distance

@@ -20,11 +20,11 @@ void main() {
     StartPoint start;
     vec2 open = vec2(float(rays));
     if (start_at(pixel_of(texel, size), start)) {
-        Directions set = directions_at(texel, rays);
+        SamplePattern which = pattern_at(texel);
         mat3 frame = frame_around(start.normal);
         float most = d_max * scene_diagonal;
         for (int i = 0; i < rays; ++i) {
-            vec3 direction = frame * direction_of(set, i);
+            vec3 direction = frame * direction_of(which, i, rays);
             uint seed = hash_combine(uint(texel.x) | (uint(texel.y) << 16), uint(i)) | 1u;
             if (dot(direction, start.face) <= 0.0) {
                 open -= 1.0; // the surface itself is in the way

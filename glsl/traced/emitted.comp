@@ -1,5 +1,5 @@
 // Light of emissive surfaces, scattered once: E/π at each pixel from shadow rays toward points of them, drawn by power, and
-// from what the gather's rays met (at the gather's resolution, where it is smooth).
+// from what the gather's rays met (at the gather's resolution, where it is smooth); or alone, from shadow rays.
 #include "lib/frame.glsl"
 #include "traced/emitter_light.glsl"
 #include "surface/upsample.glsl"
@@ -7,7 +7,10 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+uniform bool alone = false; //! static no rays of a gather count what they meet of emitters
+#if !alone
 uniform sampler2D traced_emitted;
+#endif
 layout(FORMAT_traced_emitted_light) writeonly uniform image2D traced_emitted_light;
 
 uniform int emitter_rays = 4; //! [1, 64] shadow rays per pixel
@@ -29,9 +32,11 @@ void main() {
         for (int i = 0; any_emitters() && i < emitter_rays; ++i) {
             PixelSampler chances = pixel_sampler(place, uint(i));
             vec3 l;
-            light += emitter_light(own, 1.0 / k_shadow_rays_each, chances, l) / float(emitter_rays);
+            light += emitter_light(own, alone ? 0.0 : 1.0 / k_shadow_rays_each, chances, l) / float(emitter_rays);
         }
+#if !alone
         light += upsampled(traced_emitted, pixel, 4).rgb;
+#endif
     }
 #endif
     imageStore(traced_emitted_light, pixel, vec4(min(light, vec3(65504.0)), 1.0));

@@ -31,12 +31,12 @@ void main() {
     vec3 later = vec3(0.0), emitted = vec3(0.0), sky = vec3(0.0);
     float met = 0.0;
     if (start_at(pixel_of(texel, size), start)) {
-        Directions set = directions_at(texel, rays);
+        SamplePattern which = pattern_at(texel);
         mat3 frame = frame_around(start.normal);
         uint place = hash_combine(hash_combine(uint(texel.x), uint(texel.y)), vary ? uint(frame_index) + 1u : 0u);
         for (int i = 0; i < rays; ++i) {
             PixelSampler chances = pixel_sampler(place, uint(i));
-            vec3 local = direction_of(set, i);
+            vec3 local = direction_of(which, i, rays);
             Path path = Path(start.origin, start.position, frame * local, vec3(1.0), local.z / k_pi);
             bool going = dot(path.direction, start.face) > 0.0;
             for (int depth = 1; going; ++depth) {

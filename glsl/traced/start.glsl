@@ -2,12 +2,7 @@
 #define TRACED_START_GLSL
 // Where rays from the pixels of the G-buffer start.
 #include "lib/frame.glsl"
-
-uniform sampler2D gbuffer_geometric_normal;
-#ifndef SURFACE_UPSAMPLE_GLSL // which reads these too
-uniform sampler2D gbuffer_normal;
-uniform sampler2D gbuffer_depth;
-#endif
+#include "surface/gbuffer_surface.glsl"
 
 struct StartPoint {
     vec3 position, face, normal;

@@ -35,7 +35,7 @@ RayAxes axes_of(vec3 origin, vec3 direction) {
 
 // A triangle of three texels from `at` on. Rays do not slip between neighbours, nor through their corners: each corner has
 // the same two coordinates for all its triangles, and the sign of a difference of products is never the wrong one.
-bool hit_triangle(uint at, RayAxes ray, out float t, out vec2 uv, out uvec3 carried) {
+bool meet_triangle(uint at, RayAxes ray, out float t, out vec2 uv, out uvec3 carried) {
     uvec4 texel0 = tree_texel(at), texel1 = tree_texel(at + 1u), texel2 = tree_texel(at + 2u);
     carried = uvec3(texel0.w, texel1.w, texel2.w);
     vec3 a = uintBitsToFloat(texel0.xyz) - ray.origin, b = uintBitsToFloat(texel1.xyz) - ray.origin, c = uintBitsToFloat(texel2.xyz) - ray.origin;
@@ -71,7 +71,7 @@ void trace_tree(uint root, uint root_draw, uvec4 place, vec3 origin, vec3 direct
             while (at < end && unsure.draw == k_nothing) {
                 TracedHit found;
                 uvec3 carried;
-                bool met = hit_triangle(at, ray, found.t, found.uv, carried);
+                bool met = meet_triangle(at, ray, found.t, found.uv, carried);
                 found.draw = root_draw == k_nothing ? carried.x : root_draw;
                 found.corner = carried.y;
                 if (met && is_before(found, hit)) {

@@ -75,7 +75,11 @@ struct OccludedAt {
 // From `from` metres on.
 OccludedAt find_exact_hit(VoxelGrid grid, vec3 apex, vec3 direction, float from) {
     VoxelHit hit = traverse(grid, apex, direction, from, WalkState(0.0, 0.0, 0.0));
-    return OccludedAt(hit.t < 0.0 ? -1.0 : hit.walk.hit * grid.voxel, hit.walk.enters * grid.voxel, hit.leaves);
+    float at = hit.walk.hit;
+#ifdef CHOOSES_HITS
+    if (enters_voxels()) at = hit.walk.enters;
+#endif
+    return OccludedAt(hit.t < 0.0 ? -1.0 : at * grid.voxel, hit.walk.enters * grid.voxel, hit.leaves);
 }
 
 #endif
