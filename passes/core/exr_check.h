@@ -6,8 +6,9 @@
 
 namespace bounce {
 
-/// Throws Error unless every attribute of every header lies within the file, and a preview's size is that of its pixels
-/// (OpenEXR File Layout, 2.0: "Header", "Predefined Attributes"). Other damage is left to the library.
+/// Throws Error unless every attribute of every header lies within the file and has the size of its type, as a list of
+/// channels or a preview with so many pixels has (OpenEXR File Layout, 2.0: "Header", "Predefined Attributes"). Other
+/// damage is left to the library.
 void check_exr(std::string_view file);
 
 } // namespace bounce

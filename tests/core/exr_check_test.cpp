@@ -62,6 +62,20 @@ TEST(ExrCheck, AttributesLieWithinTheFile) {
     EXPECT_THAT(told(file("name without an end")), HasSubstr("ends within a header"));
 }
 
+/// The library goes by the type and would take what follows for something else.
+TEST(ExrCheck, AttributesHaveTheSizeOfTheirType) {
+    EXPECT_EQ(told(file(attribute("w", "box2i", 16, std::string(16, 'x')) + k_end)), "");
+    EXPECT_THAT(told(file(attribute("w", "box2i", 12, std::string(12, 'x')) + k_end)), HasSubstr("expected 16"));
+    const std::string channel = std::string("R") + '\0' + std::string(16, 'x');
+    EXPECT_EQ(told(file(attribute("channels", "chlist", 19, channel + '\0') + k_end)), "");
+    EXPECT_THAT(told(file(attribute("channels", "chlist", 18, channel) + k_end)), HasSubstr("header"));
+    EXPECT_THAT(told(file(attribute("channels", "chlist", 21, channel + std::string("\0xy", 3)) + k_end)),
+                HasSubstr("channels"));
+    EXPECT_EQ(told(file(attribute("views", "stringvector", 10, number(2) + "ab" + number(0)) + k_end)), "");
+    EXPECT_THAT(told(file(attribute("views", "stringvector", 6, number(200) + "ab") + k_end)), HasSubstr("longer"));
+    EXPECT_THAT(told(file(attribute(std::string(256, 'n'), "int", 4, number(1)) + k_end)), HasSubstr("256 bytes"));
+}
+
 TEST(ExrCheck, EveryHeaderOfSeveralPartsIsGoneThrough) {
     const std::string good = attribute("a", "int", 4, number(1)) + k_end, bad = attribute("b", "int", 99, "") + k_end;
     EXPECT_EQ(told(file(good + good + k_end, k_multipart)), "");

@@ -115,7 +115,8 @@ TEST_F(Passes, EachRunsInSomeGraphWithoutErrorsAndWithFiniteResults) {
         for (const std::string& name : session.graph().model().parameter_names()) // large maps are not what is tested
             for (const auto& [large, smaller] :
                  {std::pair("shadow_maps.resolution", "128"), std::pair("ldm.maps", "16"),
-                  std::pair("ldm.resolution", "32"), std::pair("rsm.resolution", "64")})
+                  std::pair("ldm.resolution", "32"), std::pair("rsm.resolution", "64"),
+                  std::pair("graph.accumulate", "true")})
                 if (name == large) session.set_parameter(name, smaller, ParameterOrigin::panel);
         for (const auto& node : session.graph().model().nodes()) // views of C++ are off until somebody looks
             if (!node->enabled && node->entry.type != "compute") session.graph().model().switch_pass(node->id(), true);
