@@ -12,7 +12,7 @@ uniform bool fixed_in_world = false; //! rays are turned by a hash of the surfac
 uniform float world_step = 0.01;    //! [1e-4, 0.2] fixed_in_world: places that share their rays, as a share of the diagonal
 
 struct Fan {
-    Directions set;
+    SamplePattern set;
     mat3 frame;
     vec3 origin, position, normal, face;
 };
@@ -28,7 +28,7 @@ float unit_hash(uvec3 p) {
 bool fan_at(ivec2 texel, ivec2 size, out Fan fan) {
     StartPoint start;
     if (!start_at(pixel_of(texel, size), start)) return false;
-    fan.set = directions_at(texel, rays);
+    fan.set = pattern_at(texel);
     if (fixed_in_world) {
         uvec3 place = uvec3(ivec3(floor(start.position / (world_step * scene_diagonal))));
         fan.set.part = unit_hash(place);
@@ -44,7 +44,7 @@ bool fan_at(ivec2 texel, ivec2 size, out Fan fan) {
 
 // False: the ray would leave below the surface.
 bool fan_direction(Fan fan, int i, out vec3 direction) {
-    direction = fan.frame * direction_of(fan.set, i);
+    direction = fan.frame * direction_of(fan.set, i, rays);
     return dot(direction, fan.face) > 0.0;
 }
 #endif
