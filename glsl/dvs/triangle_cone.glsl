@@ -6,7 +6,7 @@
 #define DVS_HITS_TRIANGLES
 #include "dvs/cone.glsl"
 #include "traced/light.glsl"
-#include "traced/start.glsl"
+#include "surface/start.glsl"
 
 // As images: of samplers there are few.
 layout(FORMAT_dvs_radiance) readonly uniform image3D dvs_radiance;

@@ -20,7 +20,7 @@ float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float leve
     return 0.0; // nothing gathers occlusion along a ray that triangles block
 }
 #endif
-#include "traced/start.glsl"
+#include "surface/start.glsl"
 #include "traced/trace.glsl"
 
 // Radiance along the ray, and in a whether it is blocked.

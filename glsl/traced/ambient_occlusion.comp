@@ -2,8 +2,8 @@
 // out.ambient_occlusion_dmax what lies within d_max; as obscurance (falloff quadratic), visibility grows with the distance r
 // to what is met instead: (r/d_max)², r < d_max.
 #include "lib/frame.glsl"
-#include "traced/directions.glsl"
-#include "traced/start.glsl"
+#include "voxel/directions.glsl"
+#include "surface/start.glsl"
 #include "traced/trace.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -3,7 +3,7 @@
 #include "lib/frame.glsl"
 #include "traced/emitter_light.glsl"
 #include "surface/upsample.glsl"
-#include "traced/start.glsl"
+#include "surface/start.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

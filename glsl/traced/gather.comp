@@ -3,10 +3,10 @@
 // light of later orders; what the rays themselves meet of emitters (traced/emitted.comp adds the rest) and of the
 // environment. a of the first: 1 − occlusion.
 #include "lib/frame.glsl"
-#include "traced/directions.glsl"
+#include "voxel/directions.glsl"
 #include "traced/emitter_light.glsl"
 #include "traced/light.glsl"
-#include "traced/start.glsl"
+#include "surface/start.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -6,7 +6,7 @@
 #include "traced/lobes.glsl"
 #include "traced/emitter_light.glsl"
 #include "traced/light.glsl"
-#include "traced/start.glsl"
+#include "surface/start.glsl"
 #include "lib/specular_albedo.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

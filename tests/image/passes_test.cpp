@@ -116,7 +116,8 @@ TEST_F(Passes, EachRunsInSomeGraphWithoutErrorsAndWithFiniteResults) {
             for (const auto& [large, smaller] :
                  {std::pair("shadow_maps.resolution", "128"), std::pair("ldm.maps", "16"),
                   std::pair("ldm.resolution", "32"), std::pair("rsm.resolution", "64"),
-                  std::pair("graph.accumulate", "true")})
+                  std::pair("graph.accumulate", "true"), std::pair("vf_proxies.proxies", "2000"),
+                  std::pair("points.proxies", "2000"), std::pair("vpls.vpls", "64"), std::pair("splat.points", "500")})
                 if (name == large) session.set_parameter(name, smaller, ParameterOrigin::panel);
         for (const auto& node : session.graph().model().nodes()) // views of C++ are off until somebody looks
             if (!node->enabled && node->entry.type != "compute") session.graph().model().switch_pass(node->id(), true);
@@ -146,6 +147,7 @@ TEST_F(Passes, EveryGraphRendersTheDefaultShot) {
         options.graph = graph;
         options.size = glm::ivec2(32, 18);
         if (graph.starts_with("ldm")) options.sets = {{"ldm.maps", "8"}, {"ldm.resolution", "32"}}; // fast enough
+        if (graph.starts_with("ism")) options.sets = {{"vpls.vpls", "64"}, {"splat.points", "500"}};
         Session session(options);
         session.render();
         for (const GraphProblem& problem : session.graph().problems())

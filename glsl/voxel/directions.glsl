@@ -1,5 +1,5 @@
-#ifndef TRACED_DIRECTIONS_GLSL
-#define TRACED_DIRECTIONS_GLSL
+#ifndef VOXEL_DIRECTIONS_GLSL
+#define VOXEL_DIRECTIONS_GLSL
 // N directions over a hemisphere with the density cosθ/π: cosθ = √(1 − (i + part)/N), a golden angle apart. Neighbours take
 // other ones.
 #include "surface/sample_pattern.glsl"

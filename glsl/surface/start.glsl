@@ -1,5 +1,5 @@
-#ifndef TRACED_START_GLSL
-#define TRACED_START_GLSL
+#ifndef SURFACE_START_GLSL
+#define SURFACE_START_GLSL
 // Where rays from the pixels of the G-buffer start.
 #include "lib/frame.glsl"
 #include "surface/gbuffer_surface.glsl"
