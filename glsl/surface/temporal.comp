@@ -20,7 +20,7 @@ uniform int turn;             // 0 or 1: which of the two is written
 uniform bool something_moves; // objects or lights, by themselves
 
 uniform int max_frames = 1024;      //! [1, 65536] frames that the mean reaches back
-uniform int max_moving_frames = 32; //! [1, 65536] the same where something in the scene moves by itself
+uniform int max_moving_frames = 2;  //! [1, 65536] the same where something moves by itself; more: less noise, and ghosts
 uniform float clamp_width = 1.0;    //! [0, 16] (standard deviations) how far history may be from the neighbourhood's mean
 uniform float plane_distance = 0.01; //! [1e-4, 1] history farther from the surface's plane is dropped, share of the view distance
 
