@@ -4,6 +4,7 @@
 
 #include <cctype>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 namespace bounce {
@@ -36,7 +37,7 @@ class Locator {
                 if (first == '{') {
                     size_t start = at_;
                     read_text();
-                    value.names.push_back(text_.substr(start + 1, at_ - start - 2));
+                    value.names.push_back(unescaped(text_.substr(start, at_ - start)));
                     skip();
                     ++at_; // the colon
                 }
@@ -80,6 +81,9 @@ class Locator {
             if (peek() == '\\') ++at_;
         ++at_;
     }
+
+    /// What a text in quotes stands for.
+    static std::string unescaped(const std::string& quoted) { return nlohmann::json::parse(quoted).get<std::string>(); }
 
     const std::string& text_;
     size_t at_ = 0;
@@ -136,7 +140,7 @@ Value reach(std::string& text, const std::vector<std::string>& path, const char*
         }
         if (value.kind != '{') throw Error(fmt::format("there is no element {}", path[depth]));
         add_child(text, value, value.children.size(),
-                  fmt::format("\"{}\": {}", path[depth], depth + 1 == path.size() ? made : "{}"));
+                  nlohmann::json(path[depth]).dump() + ": " + (depth + 1 == path.size() ? made : "{}"));
         value = Locator(text).read();
         depth = 0;
     }

@@ -20,6 +20,14 @@ static std::string insert(const std::string& text, const std::vector<std::string
     return json.text();
 }
 
+TEST(JsonEdit, NamesAreWhatTheirEscapesStandFor) {
+    JsonEdit edit(R"({"a \\b": 1, "\u00e9": 2})");
+    edit.set({R"(a \b)"}, "3");
+    edit.set({"é"}, "4");
+    edit.set({"say \"no\""}, "5");
+    EXPECT_EQ(edit.text(), R"({"a \\b": 3, "\u00e9": 4, "say \"no\"": 5})");
+}
+
 TEST(JsonEdit, ValuesAreReplaced) {
     const std::string text = "// head\n{ \"a\": 1, /* of b */ \"b\": { \"c\": [1, {\"d\": \"x,]}\\\"\"}] } } // tail\n";
     EXPECT_EQ(set(text, {"a"}, "2"),
