@@ -90,7 +90,7 @@ class StaleTest : public GpuTest {
             .emission({0.9f, 0.8f, 0.3f})
             .write(root.path(), name);
         std::string file = name + ".gltf";
-        root.edit(file, "\"metallicFactor\":0,\"roughnessFactor\":1}",
+        root.edit(file, "\"metallicFactor\":0.0,\"roughnessFactor\":1.0}",
                   "\"metallicFactor\":0.3,\"roughnessFactor\":0.4},\"alphaMode\":\"MASK\"");
     }
 };
