@@ -35,6 +35,7 @@ void Invalidation::new_plan(const GraphModel& model, const Plan& plan) {
         const PlanResource* resource = plan.find_resource(known.first);
         return !resource || !keeps(*resource);
     });
+    std::erase_if(lies_, [&](const auto& known) { return !plan.find_resource(known.first); });
     active_.clear();
     follows_.clear();
     for (const PlanPass& pass : plan.passes) {
@@ -163,6 +164,13 @@ void Invalidation::find_runs(const Plan& plan, bool every_frame) {
     runs_.assign(count, every_frame);
     for (size_t i = 0; i < count; ++i)
         runs_[i] = every_frame || passes_[plan.passes[i].id].ran != revisions_[i];
+    // A pass that is gone from the plan may have written on top of what those that are left made.
+    for (size_t r = 0; r < plan.resources.size(); ++r) {
+        const auto lies = lies_.find(plan.resources[r].name());
+        if (lies == lies_.end() || lies->second == contents_[r]) continue;
+        for (size_t i = 0; i < count; ++i)
+            if (writes(plan.passes[i], int(r))) runs_[i] = true;
+    }
     // What runs needs what it reads as it was at its turn. Where that does not lie there any more, it is made again.
     auto in_batches = [&](size_t a, size_t b) {
         const PlanPass& pass = plan.passes[a];
@@ -206,6 +214,7 @@ void Invalidation::ran(size_t index, const GraphModel& model, const Plan& plan, 
 std::vector<int> Invalidation::end_frame(const Plan& plan) {
     std::vector<int> to_copy;
     for (size_t r = 0; r < plan.resources.size(); ++r) {
+        lies_[plan.resources[r].name()] = contents_[r];
         auto found = kept_.find(plan.resources[r].name());
         if (found == kept_.end()) continue;
         Kept& kept = found->second;

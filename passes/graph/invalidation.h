@@ -67,6 +67,7 @@ class Invalidation {
     std::map<std::string, Kept> kept_;        ///< by resource: persistent, incremental, or with last frame's copy
     std::vector<uint64_t> revisions_;         ///< of passes in this frame
     std::vector<uint64_t> contents_;          ///< of resources at the end of this frame
+    std::map<std::string, uint64_t> lies_;    ///< by resource: what was there at the end of the last frame
     std::vector<bool> runs_, stands_;
     std::vector<int> voids_;
     uint64_t serial_ = 0, cuts_ = 0;

@@ -36,6 +36,10 @@ class Source : public testing::Test {
             std::vector<std::string> original =
                 lines_of(folder.read(source.files[size_t(at.file)].lexically_relative(folder.path())));
             ASSERT_LE(size_t(at.line), original.size());
+            // A static enumeration is a constant.
+            if (flat[i].starts_with("const int ") &&
+                original[size_t(at.line) - 1].find("//! static") != std::string::npos)
+                continue;
             EXPECT_EQ(flat[i], original[size_t(at.line) - 1]) << "flat line " << i + 1;
         }
     }

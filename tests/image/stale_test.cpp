@@ -291,8 +291,11 @@ TEST_P(StaleParameters, ChangedAndChangedBackShowWhatAFreshStartShows) {
     const size_t step = std::getenv("BOUNCE_EVERY_PARAMETER") ? 1 : 11;
     const std::vector<std::string> names = model.parameter_names();
     int refused = 0;
-    for (size_t i = std::hash<std::string>()(GetParam()) % step; i < names.size(); i += step) {
+    const size_t first = std::hash<std::string>()(GetParam()) % step;
+    for (size_t i = 0; i < names.size(); ++i) {
         const std::string& name = names[i];
+        // With one bounce a pass is gone that wrote on top of another's voxels: always tried.
+        if (i % step != first && name != "voxel_bounce.bounces") continue;
         const Parameter* parameter = model.find_parameter(name);
         if (!parameter || name == "graph.rebuild" || (by_sums && name == averaging)) continue;
         const std::string before = to_text(parameter->info, parameter->value), after = another_value(*parameter);
