@@ -195,7 +195,9 @@ TEST_F(LightRangeTest, TheCaseInMillimetres) {
                     a += seen.layers.at(name).pixels[i], b += image.pixels[i];
                 const double wanted = holds_radiance(name) ? 1e-6 * lamps : 1;
                 if (b > 0) {
-                    EXPECT_NEAR(a / b / wanted, 1, 0.005) << graph << ": " << name << ", " << lamps << " lamps";
+                    // Where proxies lie is drawn by their place, so that other ones are drawn in millimetres.
+                    const double tolerance = graph.starts_with("vf") ? 0.03 : 0.005;
+                    EXPECT_NEAR(a / b / wanted, 1, tolerance) << graph << ": " << name << ", " << lamps << " lamps";
                 }
             }
         }
