@@ -165,8 +165,8 @@ TEST_F(Leak, ThroughACurtainWhoseNormalsCancel) {
         fmt::print("    leak of {:<16} through a curtain {:.4f}\n", variant.name, leak);
         leaks[variant.name] = leak;
     }
-    // Measured: .163, .163, .995, .0188. Of the last, 128 cones a texel tell .0185: fewer that repeat in blocks of 4 × 4
-    // told less (.012).
+    // Measured: .163, .163, .995, .0188. Of the last, 128 cones a texel tell .0185: fewer that repeat in blocks of 4 ×
+    // 4 told less (.012).
     EXPECT_LT(leaks["dvs, Eq. 2"], 0.33);
     EXPECT_GT(leaks["dvs, isotropic"], 3 * leaks["dvs, Eq. 2"]);
     EXPECT_LT(leaks["dvs_tuned"], 0.02);
