@@ -14,7 +14,7 @@ layout(FORMAT_temporal_output) writeonly uniform image2D temporal_output; // the
 layout(FORMAT_temporal_frames) writeonly uniform image2D temporal_frames; //! neutral 1 // how many it holds
 // Of two frames in turn: the mean; then position, and in a the frames that the mean holds.
 layout(FORMAT_temporal_history) uniform image2DArray temporal_history;
-layout(std430) buffer temporal_counts { uint most_frames, held_texels, seen_texels; };
+layout(std430) buffer temporal_counts { uint max_frames_held, held_texels, seen_texels; };
 
 uniform int turn;             // 0 or 1: which of the two is written
 uniform bool something_moves; // objects or lights, by themselves
@@ -105,7 +105,7 @@ void main() {
     imageStore(temporal_frames, texel, vec4(frames));
     imageStore(temporal_history, ivec3(texel, turn), mean);
     imageStore(temporal_history, ivec3(texel, 2 + turn), vec4(position, frames));
-    atomicMax(most_frames, uint(frames));
+    atomicMax(max_frames_held, uint(frames));
     atomicAdd(seen_texels, 1u);
     if (frames >= 1.5) atomicAdd(held_texels, 1u);
 }
