@@ -14,7 +14,7 @@ uniform bool ratio = false;  //! a cell's visibility is the share of its light t
 void meet_cell(GridWalk walk, vec3 origin, vec3 direction, out float nearest, out float nearest_lit) {
     nearest = nearest_lit = 3.0e38;
     uvec2 range = entries_of(cell_index(walk.at, grid.size));
-    float slack = 1.0e-4 * (walk.to - walk.from) + 1.0e-6;
+    float slack = walk_slack(walk);
     for (uint i = range.x; i < range.y; ++i) {
         float t = meet_disc(proxies[i].position, proxies[i].normal, proxies[i].radius, origin, direction);
         if (t <= skipped * grid.disc_radius) continue;

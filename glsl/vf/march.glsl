@@ -1,6 +1,7 @@
 #ifndef VF_MARCH_GLSL
 #define VF_MARCH_GLSL
 // A ray through the cells, and the discs that it meets in each (VF, section 3.1).
+#include "lib/frame.glsl"
 #include "vf/grid.glsl"
 
 layout(std430) readonly buffer vf_grid { Grid grid; };
@@ -25,13 +26,18 @@ uvec2 entries_of(uint cell) {
     return uvec2(own.y > own.x ? own.x : copies.x, copies.y);
 }
 
+// How far beyond the walk's cell a hit still counts as in it: a share of the stretch, and of the scene, for corners.
+float walk_slack(GridWalk walk) {
+    return 1.0e-4 * (walk.to - walk.from) + 2.0e-7 * scene_diagonal;
+}
+
 // The disc that the ray meets first in the walk's present cell, or −1. With copies in neighbouring cells a disc counts where
 // the ray meets it; else each cell answers for all of its discs, wherever they reach.
 int first_in_cell(GridWalk walk, vec3 origin, vec3 direction, float start, out float t) {
     int found = -1;
     t = 3.0e38;
     uvec2 range = entries_of(cell_index(walk.at, grid.size));
-    float slack = 1.0e-4 * (walk.to - walk.from) + 1.0e-6;
+    float slack = walk_slack(walk);
     for (uint i = range.x; i < range.y; ++i) {
         float here = meet_disc(proxies[i].position, proxies[i].normal, proxies[i].radius, origin, direction);
         if (here <= start || here >= t) continue;

@@ -4,7 +4,9 @@
 // object moves.
 #define SCENE_DRAWS
 #define SCENE_GEOMETRY
+#include "lib/frame.glsl"
 #include "lib/scene.glsl"
+#include "lib/coverage.glsl"
 
 // The first triangle of each draw, in order; one more entry at the end.
 layout(std430) readonly buffer vf_draw_starts { uint draw_starts[]; };
@@ -21,23 +23,17 @@ struct WorldTriangle {
     uint hash;         // of its corners' positions in their object, and of the draw
 };
 
-uint mixed(uint x) {
-    x ^= x >> 16;
-    x *= 0x7feb352du;
-    x ^= x >> 15;
-    x *= 0x846ca68bu;
-    return x ^ (x >> 16);
-}
-
 WorldTriangle world_triangle(uint triangle) {
     WorldTriangle t;
     t.draw = draw_of(triangle, draw_count);
     t.first = draws[t.draw].first_index + 3u * (triangle - draw_starts[t.draw]);
-    t.hash = mixed(uint(t.draw) + 1u);
+    t.hash = hash_u32(uint(t.draw) + 1u);
     for (int i = 0; i < 3; ++i) {
         vec3 own = vertices[indices[t.first + uint(i)]].position_u.xyz;
+        // In millionths of the scene: in another unit of length the same proxies are drawn.
+        ivec3 place = ivec3(round(own / scene_diagonal * 1048576.0));
         for (int k = 0; k < 3; ++k)
-            t.hash = mixed(t.hash ^ floatBitsToUint(own[k]));
+            t.hash = hash_u32(t.hash ^ uint(place[k]));
         t.positions[i] = (draws[t.draw].world * vec4(own, 1.0)).xyz;
     }
     t.area = 0.5 * length(cross(t.positions[1] - t.positions[0], t.positions[2] - t.positions[0]));

@@ -169,17 +169,6 @@ TEST_F(LightRangeTest, EveryGraphIsTheSameAtEverySize) {
                             json_of(s * glm::vec3(0.8f, 2.7f, 0.3f)), json_of(s * s * glm::vec3(3, 2.5f, 2)));
             const auto other_opened = open(shot_of("other", room().scaled(s), lamp, "", s), graph);
             Session& other = *other_opened;
-            // Proxies are drawn by their place: elsewhere they are others, and the picture is the same in the mean.
-            if (graph.starts_with("vf")) {
-                const LayeredImage seen = picture(other);
-                for (const auto& [name, image] : truth.layers) {
-                    double a = 0, b = 0;
-                    for (size_t i = 0; i < image.pixels.size(); ++i)
-                        a += seen.layers.at(name).pixels[i], b += image.pixels[i];
-                    if (b > 0) EXPECT_NEAR(a / b, 1, 0.05) << graph << " at size " << s << ": " << name;
-                }
-                continue;
-            }
             // By a power of two nothing is rounded otherwise, but where a graph adds a length of its own.
             expect_same(picture(other), truth, 1, 4e-3, graph + " at size " + std::to_string(s));
         }
@@ -206,9 +195,7 @@ TEST_F(LightRangeTest, TheCaseInMillimetres) {
                     a += seen.layers.at(name).pixels[i], b += image.pixels[i];
                 const double wanted = holds_radiance(name) ? 1e-6 * lamps : 1;
                 if (b > 0) {
-                    // Where proxies lie is drawn by their place, so that other ones are drawn in millimetres.
-                    const double tolerance = graph.starts_with("vf") ? 0.03 : 0.005;
-                    EXPECT_NEAR(a / b / wanted, 1, tolerance) << graph << ": " << name << ", " << lamps << " lamps";
+                    EXPECT_NEAR(a / b / wanted, 1, 0.005) << graph << ": " << name << ", " << lamps << " lamps";
                 }
             }
         }
