@@ -238,7 +238,7 @@ class Expander {
 
     /// "#if name" and "#if !name" over a //! static bool become #if 1 or #if 0: what is behind them is known, too. So
     /// do
-    /// "#if name == name_choice", != and >= over a //! static enumeration (by the order of its choices).
+    /// "#if name == name_choice", != and >= over a //! static enumeration, by the order of its choices.
     std::string with_static_value(const std::string& directive) const {
         Scanner scanner(directive);
         if (!scanner.take_word("if")) return directive;

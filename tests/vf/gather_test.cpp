@@ -22,17 +22,7 @@ class VfGather : public VfTest {
         bool surface;
     };
     std::vector<Seen> seen(const VfSets& sets) {
-        shader("test/start.comp", R"(#include "surface/start.glsl"
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(FORMAT_test_start) writeonly uniform image2D test_start;
-void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    StartPoint start;
-    if (any(greaterThanEqual(pixel, resolution))) return;
-    bool there = start_at(pixel, start);
-    imageStore(test_start, pixel, there ? vec4(start.position, 1.0) : vec4(0.0));
-}
-)");
+        shader("test/start.comp", k_start_shader);
         make(floor_and_wall(), {directional_light({0, -1, 0}, {3, 3, 3})}, sets,
              R"("test.start":{"format":"rgba32f"},)", R"({"id":"start","type":"compute","shader":"test/start.comp"})");
         std::vector<float> start = run->read("test.start"), normal = run->read("gbuffer.normal"),

@@ -140,17 +140,7 @@ void main() {
 
 /// A filtered list is the union of the lists around it whose surfaces agree; counts add up.
 TEST_F(VfMarch, TheFilterIsTheUnionOfListsThatAgree) {
-    shader("test/start.comp", R"(#include "surface/start.glsl"
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(FORMAT_test_start) writeonly uniform image2D test_start;
-void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    StartPoint start;
-    if (any(greaterThanEqual(pixel, resolution))) return;
-    bool there = start_at(pixel, start);
-    imageStore(test_start, pixel, there ? vec4(start.position, 1.0) : vec4(0.0));
-}
-)");
+    shader("test/start.comp", k_start_shader);
     for (const char* ratio : {"false", "true"}) {
         make(blocks(), light_above_blocks(),
              {{"visibility.ratio", ratio},
