@@ -11,6 +11,9 @@ namespace bounce {
 
 namespace {
 
+/// What ends a comment that begins with two slashes, as the reader of JSON has it.
+constexpr std::string_view k_line_ends("\n\r");
+
 /// A value and where it stands in the text.
 struct Value {
     char kind = 'v'; ///< '{', '[' or a plain value
@@ -22,7 +25,7 @@ struct Value {
 
 class Locator {
   public:
-    explicit Locator(const std::string& text) : text_(text) {}
+    explicit Locator(const std::string& text) : text_(text), at_(text.starts_with("\xEF\xBB\xBF") ? 3 : 0) {}
 
     Value read() {
         skip();
@@ -69,7 +72,7 @@ class Locator {
             if (std::isspace(static_cast<unsigned char>(text_[at_])))
                 ++at_;
             else if (text_.compare(at_, 2, "//") == 0)
-                at_ = std::min(text_.find('\n', at_), text_.size());
+                at_ = std::min(text_.find_first_of(k_line_ends, at_), text_.size());
             else if (text_.compare(at_, 2, "/*") == 0)
                 at_ = std::min(text_.find("*/", at_ + 2), text_.size() - 2) + 2;
             else
@@ -86,7 +89,7 @@ class Locator {
     static std::string unescaped(const std::string& quoted) { return nlohmann::json::parse(quoted).get<std::string>(); }
 
     const std::string& text_;
-    size_t at_ = 0;
+    size_t at_;
 };
 
 const Value* child(const Value& value, const std::string& name) {
@@ -119,7 +122,7 @@ void add_child(std::string& text, const Value& parent, size_t before, const std:
             return;
         }
         // A comment behind the last child stays with it.
-        size_t line_end = std::min(text.find('\n', end), text.size());
+        size_t line_end = std::min(text.find_first_of(k_line_ends, end), text.size());
         size_t rest = text.find_first_not_of(" \t", end);
         bool comment = rest != std::string::npos && rest < line_end && text.compare(rest, 2, "//") == 0;
         text.insert(comment ? line_end : end, "\n" + indent + item);

@@ -77,6 +77,11 @@ Json parse_json(std::string_view text, const std::string& what, JsonComments com
     if (text.size() > max_bytes)
         throw Error(fmt::format("{}: {} of JSON: expected at most {}", what, format_bytes(double(text.size())),
                                 format_bytes(double(max_bytes))));
+    // The library takes a zero byte for the end, but a zero byte in a comment for the end of the comment. Scenes of
+    // other programs may be padded with them.
+    if (const size_t zero = text.find('\0'); comments == JsonComments::allowed && zero != text.npos)
+        throw Error(fmt::format("{}:{}: not valid JSON: a zero byte", what,
+                                1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(zero), '\n')));
     // Large scenes may hold more.
     Guard<Json> guard(what, max_bytes > k_max_json_text ? 5 * k_max_json_values : k_max_json_values,
                       comments == JsonComments::allowed);

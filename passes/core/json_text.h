@@ -21,7 +21,7 @@ enum class JsonComments { refused, allowed };
 
 /// Throws Error ("`what`:3: not valid JSON: …"). `Json` is nlohmann::json, or nlohmann::ordered_json, which keeps the
 /// order of the file. Comments are // and /* */. Where they are allowed (in files of ours), a key that an object has
-/// twice is an error, since one of its two values would be lost.
+/// twice is an error, since one of its two values would be lost, and so is a zero byte.
 template <class Json = nlohmann::json>
 Json parse_json(std::string_view text, const std::string& what, JsonComments comments = JsonComments::refused,
                 size_t max_bytes = k_max_json_text);

@@ -28,6 +28,13 @@ TEST(JsonEdit, NamesAreWhatTheirEscapesStandFor) {
     EXPECT_EQ(edit.text(), R"({"a \\b": 3, "\u00e9": 4, "say \"no\"": 5})");
 }
 
+// The reader ends a comment at a carriage return too, and leaves a byte order mark out.
+TEST(JsonEdit, CommentsEndAndFilesBeginWhereTheReaderHasThem) {
+    EXPECT_EQ(set("{ // first\r\"a\": 1 }", {"a"}, "2"), "{ // first\r\"a\": 2 }");
+    EXPECT_EQ(set("{\r\n  \"a\": 1 // last\r\n}", {"b"}, "2"), "{\r\n  \"a\": 1, // last\n  \"b\": 2\r\n}");
+    EXPECT_EQ(set("\xEF\xBB\xBF{\"a\": 1}", {"a"}, "2"), "\xEF\xBB\xBF{\"a\": 2}");
+}
+
 TEST(JsonEdit, ValuesAreReplaced) {
     const std::string text = "// head\n{ \"a\": 1, /* of b */ \"b\": { \"c\": [1, {\"d\": \"x,]}\\\"\"}] } } // tail\n";
     EXPECT_EQ(set(text, {"a"}, "2"),

@@ -33,6 +33,8 @@ std::string nested(int levels, const char* open, const char* close) {
 TEST(JsonText, OneMessageWithTheLine) {
     EXPECT_THAT(json_refusal("{\n\"a\": 1,\n\"b\" 2\n}"), StartsWith("a.json:3: not valid JSON: column "));
     EXPECT_THAT(json_refusal(""), StartsWith("a.json:1: not valid JSON: "));
+    EXPECT_EQ(json_refusal(std::string("{ // a\n \0}", 10)), "a.json:2: not valid JSON: a zero byte");
+    EXPECT_EQ(json_refusal(std::string("{}\0", 3), JsonComments::refused), "") << "padding of scenes";
     EXPECT_THAT(json_refusal("{\"a\": 1e999}"), StartsWith("a.json: not valid JSON: number overflow"));
     EXPECT_THAT(json_refusal("{\"a\": \"\xFF\"}"), StartsWith("a.json:1: not valid JSON: "));
     for (const char* bad : {"{", "[1,]", "{\"a\":}", "nul", "{\"a\": 1} x", "\"\\u12\""})
