@@ -9,6 +9,9 @@ namespace bounce {
 /// Names are short; the time of comparing two is the product of their lengths.
 static constexpr size_t k_max_compared = 200;
 
+/// More names than these tell a person nothing.
+static constexpr size_t k_max_listed = 24;
+
 static size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), size_t{0});
@@ -44,7 +47,13 @@ std::optional<std::string> nearest_name(std::string_view name, const std::vector
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates) {
     if (candidates.empty()) return " (there are none)";
     if (auto nearest = nearest_name(name, candidates)) return " (did you mean '" + *nearest + "'?)";
-    return " (there are: " + join(candidates, ", ") + ")";
+    // Of many names, those of the same pass: "gather.…" where 'gather.estimator' is asked for.
+    std::vector<std::string> listed = candidates;
+    if (const size_t dot = name.find('.'); listed.size() > k_max_listed && dot != name.npos)
+        std::erase_if(listed, [&](const std::string& each) { return !each.starts_with(name.substr(0, dot + 1)); });
+    if (listed.empty() || listed.size() > k_max_listed) return fmt::format(" (there are {})", candidates.size());
+    const char* all = listed.size() == candidates.size() ? "there are" : "there are, among others";
+    return fmt::format(" ({}: {})", all, join(listed, ", "));
 }
 
 std::string_view trim(std::string_view text) {

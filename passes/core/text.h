@@ -11,7 +11,8 @@ namespace bounce {
 /// The candidate with the smallest edit distance to `name`, unless even that one is farther than half of its length.
 std::optional<std::string> nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 
-/// " (did you mean 'x'?)" or, where nothing is near, a list of what there is; for the end of an error message.
+/// " (did you mean 'x'?)" or, where nothing is near, a list of what there is (of many, those with the same text before
+/// the first point, or their number); for the end of an error message.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates);
 
 std::string_view trim(std::string_view text);

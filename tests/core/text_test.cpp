@@ -20,6 +20,10 @@ TEST(Text, DidYouMean) {
     EXPECT_EQ(did_you_mean("depht", {"albedo", "depth"}), " (did you mean 'depth'?)");
     EXPECT_EQ(did_you_mean("qqqqqqqqqqqq", {"albedo", "depth"}), " (there are: albedo, depth)");
     EXPECT_EQ(did_you_mean("x", {}), " (there are none)");
+    std::vector<std::string> many(100, "filter.width");
+    many.insert(many.begin(), {"gather.rays", "gather.bounces"});
+    EXPECT_EQ(did_you_mean("gather.estimator_of", many), " (there are, among others: gather.rays, gather.bounces)");
+    EXPECT_EQ(did_you_mean("occlusion_voxels.resolution", many), " (there are 102)");
 }
 
 TEST(Text, SplitTrimJoinAndBytes) {
