@@ -5,6 +5,8 @@
 
 namespace bounce {
 
+static constexpr size_t k_max_barriers = 100'000;
+
 namespace {
 struct RouteText {
     const char* text;
@@ -127,6 +129,7 @@ void HazardCheck::command(const MemoryCommand& command) {
 
 void HazardCheck::barrier(GLbitfield bits, const std::string& place) {
     if (trace) trace->push_back({{}, bits, place});
+    if (barriers_.size() >= k_max_barriers) forget_barriers(); // a window runs for hours
     const int index = first_barrier_ + int(barriers_.size());
     barriers_.push_back({bits, place, 0, 0});
     for (auto& [object, memory] : memory_) {
