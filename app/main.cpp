@@ -9,7 +9,9 @@
 #include "core/error.h"
 #include "core/limits.h"
 #include "core/log.h"
+#include "gpu/call_watch.h"
 
+#include <fmt/format.h>
 #include <new>
 
 int main(int argc, char** argv) {
@@ -67,6 +69,8 @@ int main(int argc, char** argv) {
         // What is printed may be the result (--json): a full disk behind it is an error as behind any other file.
         if (const std::string problem = output_problem(); !problem.empty())
             throw Error("cannot write to standard output: " + problem);
+        if (calls_are_watched() && !hazard_check().hazards().empty())
+            throw Error(fmt::format("{} hazards were found", hazard_check().hazards().size()));
         return code;
     } catch (const std::bad_alloc&) {
         print_error(

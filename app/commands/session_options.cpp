@@ -2,6 +2,7 @@
 
 #include "app/commands/option_checks.h"
 #include "core/error.h"
+#include "gpu/call_watch.h"
 #include "gpu/shader_limits.h"
 #include "graph/graph_file.h"
 #include "scene/find_scene.h"
@@ -36,6 +37,7 @@ void SessionArguments::add_settings_to(CLI::App& command) {
         ->check(shader_limit())
         ->allow_extra_args(false);
     command.add_flag("--check-nan", check_nan, "look for values that are not finite after every pass");
+    command.add_flag("--check-hazards", check_hazards, "look for memory barriers that are missing between passes");
 }
 
 void SessionArguments::check_names() const {
@@ -48,6 +50,7 @@ SessionOptions SessionArguments::options() const {
     out.shot = shot;
     out.graph = graph;
     out.check_nan = check_nan;
+    if (check_hazards) want_call_watch();
     if (!material_model.empty()) out.material_model = material_model_named(material_model);
     for (const std::string& limit : shader_limits)
         set_shader_limit(limit);

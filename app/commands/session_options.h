@@ -17,6 +17,7 @@ struct SessionArguments {
     std::string material_model;
     int device = -1;
     bool check_nan = false;
+    bool check_hazards = false;
 
     void add_to(CLI::App& command, bool shot_required);
     /// All but the shot and the graph, for commands that take several.

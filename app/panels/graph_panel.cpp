@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/paths.h"
 #include "core/text.h"
+#include "gpu/call_watch.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -64,6 +65,14 @@ void draw_problems(const Graph& graph) {
         show_wrapped(problem.error.text(), k_error_colour);
         note_widget("graph.problem");
     }
+    if (!calls_are_watched()) return;
+    const std::vector<std::string>& hazards = hazard_check().hazards();
+    ImGui::TextDisabled("%zu hazards", hazards.size());
+    note_widget("graph.hazards");
+    show_tooltip("Commands that need a memory barrier which is missing (--check-hazards).");
+    const size_t shown = std::min<size_t>(hazards.size(), 5);
+    for (size_t i = hazards.size() - shown; i < hazards.size(); ++i)
+        show_wrapped(hazards[i], k_error_colour);
 }
 
 void switch_passes(Session& session, UiState& ui, const std::vector<std::string>& ids, bool on) {

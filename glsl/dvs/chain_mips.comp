@@ -9,8 +9,6 @@ uniform sampler3D dvs_finer;  //! from dvs.directional
 uniform usampler3D voxels_bricks;
 layout(FORMAT_dvs_directional) writeonly uniform image3D dvs_directional;
 
-uniform int coarser_mip;
-
 void main() {
     ivec3 voxel = ivec3(gl_GlobalInvocationID);
     int size = imageSize(dvs_directional).z;
@@ -22,7 +20,7 @@ void main() {
         vec4 children[8];
         float occupied = 0.0;
         for (int i = 0; i < 8; ++i) {
-            children[i] = texelFetch(dvs_finer, base + ivec3(i & 1, (i >> 1) & 1, i >> 2), coarser_mip - 1);
+            children[i] = texelFetch(dvs_finer, base + ivec3(i & 1, (i >> 1) & 1, i >> 2), 0);
             occupied += children[i].a;
         }
         if (occupied > 0.0) imageStore(dvs_directional, voxel + tile_of(leaf, size), directional_mean(children, leaf));

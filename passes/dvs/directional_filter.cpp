@@ -5,7 +5,6 @@ namespace bounce {
 void DirectionalFilter::describe(PassDescription& description) {
     for (const char* name : {"leaves", "base_mips", "chain_mips"})
         description.program(name, {std::string("dvs/") + name + ".comp"});
-    description.constant("coarser_mip");
 }
 
 void DirectionalFilter::declare(Declaration& d) const {
@@ -24,8 +23,8 @@ void DirectionalFilter::run(PassContext& c) const {
         c.dispatch("base_mips", c.texture("voxels.bricks").desc().size);
     for (int mip = 1; mip < directional.mips; ++mip) {
         c.barrier();
-        c.set("coarser_mip", mip);
         c.bind_mip("dvs.directional", mip);
+        c.bind_mip("dvs.finer", mip - 1); // a view of it alone: what is written is not bound to be read
         c.dispatch("chain_mips", glm::ivec3(directional.size.z >> mip));
     }
     c.barrier();

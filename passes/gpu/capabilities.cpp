@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "core/text.h"
+#include "gpu/call_watch.h"
 
 #include <algorithm>
 #include <atomic>
@@ -67,6 +68,7 @@ void ask_mesa_for_46() {
 }
 
 Capabilities start_context() {
+    if (call_watch_is_wanted()) watch_calls();
     start_debug_messages();
     Capabilities capabilities = read_capabilities();
     if (!capabilities.missing.empty()) {

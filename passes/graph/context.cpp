@@ -115,6 +115,13 @@ void PassContext::bind_mip(const std::string& slot_name, int mip) {
     mips_.emplace_back(slot_name, mip);
 }
 
+/// The mip that bind_mip or the graph file binds the slot to; −1: all of them.
+int PassContext::mip_of(const PlanSlot& slot) const {
+    for (const auto& [name, mip] : mips_)
+        if (name == slot.use.slot) return mip;
+    return index_at(slot.bind.mip);
+}
+
 static bool sampler_is_2d(GLenum type) {
     return type == GL_SAMPLER_2D || type == GL_INT_SAMPLER_2D || type == GL_UNSIGNED_INT_SAMPLER_2D ||
            type == GL_SAMPLER_2D_SHADOW;
@@ -167,7 +174,7 @@ Program& PassContext::use(const std::string& name) {
             texture = scene.lobe_albedo().id();
         else if (s && s->resource >= 0) {
             texture = graph_.allocations_
-                          .view(s->resource, s->bind.previous, index_at(s->bind.mip), index_at(s->bind.layer),
+                          .view(s->resource, s->bind.previous, mip_of(*s), index_at(s->bind.layer),
                                 sampler_is_2d(sampler.type))
                           .id();
         } else {
@@ -185,10 +192,7 @@ Program& PassContext::use(const std::string& name) {
             continue;
         }
         const GpuTexture& texture = graph_.allocations_.texture(s->resource, s->bind.previous);
-        int mip = index_at(s->bind.mip);
-        for (const auto& [slot, wanted] : mips_)
-            if (slot == s->use.slot) mip = wanted;
-        mip = std::clamp(mip, 0, texture.desc().mips - 1);
+        int mip = std::clamp(mip_of(*s), 0, texture.desc().mips - 1);
         int layer = index_at(s->bind.layer);
         bool layered = texture.desc().kind != TextureKind::texture_2d && !image_is_2d(image.type);
         GLenum access = s->use.writes ? (s->use.reads ? GL_READ_WRITE : GL_WRITE_ONLY) : GL_READ_ONLY;

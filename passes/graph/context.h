@@ -77,8 +77,8 @@ class PassContext {
     /// The value of a constant announced by PassDescription::constant, for the next dispatch or draw.
     void set(const std::string& name, const ParameterValue& value);
 
-    /// Images of that slot are mip `mip` of its texture, for the next dispatches (for passes that walk a mip chain
-    /// themselves).
+    /// Images and samplers of that slot see mip `mip` of its texture alone, for the next dispatches (for passes that walk
+    /// a mip chain themselves).
     void bind_mip(const std::string& slot, int mip);
 
     /// At least so many invocations (rounded up to whole groups).
@@ -104,6 +104,7 @@ class PassContext {
     const GpuScene& scene(std::initializer_list<ScenePart> parts) const;
     const PlanSlot& slot(const std::string& name) const;
     int index_at(const std::string& expression) const;
+    int mip_of(const PlanSlot& slot) const;
     Program& use(const std::string& program);
     void bind_targets(const Targets& targets);
 
