@@ -12,9 +12,18 @@
 
 namespace bounce {
 
+/// As commands take them: those of presets/ with the folder.
+static std::vector<std::string> graph_names() {
+    std::vector<std::string> names = asset_names("graphs");
+    for (const std::string& name : asset_names("graphs/presets"))
+        names.push_back("presets/" + name);
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
 /// Graphs that are lists of departures from another of them (every method starts from one in graphs/base).
 static std::vector<std::string> preset_names() {
-    const std::vector<std::string> graphs = asset_names("graphs");
+    const std::vector<std::string> graphs = graph_names();
     std::vector<std::string> names;
     for (const std::string& name : graphs) {
         try {
@@ -37,11 +46,14 @@ static std::vector<std::string> metric_names() {
 }
 
 const std::vector<NameKind>& name_kinds() {
-    static const std::vector<NameKind> kinds = {
-        {"shots", [] { return asset_names("shots"); }},     {"scenes", scene_names},
-        {"graphs", [] { return asset_names("graphs"); }},   {"presets", preset_names},
-        {"sweeps", [] { return asset_names("sweeps"); }},   {"tables", [] { return asset_names("tables"); }},
-        {"cases", [] { return asset_names("stability"); }}, {"metrics", metric_names}};
+    static const std::vector<NameKind> kinds = {{"shots", [] { return asset_names("shots"); }},
+                                                {"scenes", scene_names},
+                                                {"graphs", graph_names},
+                                                {"presets", preset_names},
+                                                {"sweeps", [] { return asset_names("sweeps"); }},
+                                                {"tables", [] { return asset_names("tables"); }},
+                                                {"cases", [] { return asset_names("stability"); }},
+                                                {"metrics", metric_names}};
     return kinds;
 }
 

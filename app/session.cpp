@@ -1,5 +1,6 @@
 #include "app/session.h"
 
+#include "app/omitted_light.h"
 #include "core/error.h"
 #include "core/limits.h"
 #include "core/log.h"
@@ -36,6 +37,7 @@ Session::Session(SessionOptions options) : options_(std::move(options)), timer_m
     apply_options(graph_->model(), options_);
     load_scene_to_gpu();
     graph_->prepare(facts_, size_); // so that a bad graph is told at once
+    log_omitted_light(options_.graph, graph_->model().file().transport, facts_);
 }
 
 Session::~Session() = default;
@@ -91,6 +93,7 @@ void Session::open_shot(const std::string& name) {
     frame_ = 0;
     graph_->touch();
     graph_->reset_history();
+    log_omitted_light(options_.graph, graph_->model().file().transport, facts_);
 }
 
 void Session::open_graph(const std::string& name) {
@@ -100,6 +103,7 @@ void Session::open_graph(const std::string& name) {
     next->prepare(facts_, size_);
     graph_ = std::move(next);
     options_.graph = name;
+    log_omitted_light(name, graph_->model().file().transport, facts_);
 }
 
 void Session::set_frame(int frame) {

@@ -1,5 +1,6 @@
 // bounce info: what a scene or shot holds, and so what it needs.
 #include "app/commands/command.h"
+#include "app/omitted_light.h"
 #include "app/print.h"
 #include "scene/describe.h"
 #include "scene/shot.h"
@@ -14,7 +15,8 @@ void add_info_command(CLI::App& app, CommandFunction& chosen) {
     command->add_option("file", *file, "a scene (.gltf, .glb) or shot")->type_name("SHOT")->required();
     command->callback([file, &chosen] {
         chosen = [file] {
-            print("{}", describe_scene(load_shot(*file)));
+            const Shot shot = load_shot(*file);
+            print("{}{}", describe_scene(shot), describe_omitted_light(shot_facts(shot)));
             return 0;
         };
     });

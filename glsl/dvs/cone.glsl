@@ -21,6 +21,7 @@ uniform int direction_weights = 0;    //! {squared, absolute} weights of the thr
 uniform float ambient_decay = 0.1;    //! [0, 10] (1/voxel) λ, how fast occlusion fades with the cone's radius
 uniform bool hit_then_sample = false; //! static the colour is looked up once a cone, where it is blocked
 uniform bool exact_hits = false;      //! static hit_then_sample: the hit is found from voxel to voxel instead of by a thin cone
+uniform bool emitters_apart = false;  //! static exact hits: what is met of emission is left to a pass of its own (dvs/emitted.comp)
 uniform float hit_aperture = 2.0;     //! [0, 90] (degrees) hit_then_sample: of the cone that finds the hit
 uniform float hit_threshold = 0.5;    //! [0.05, 0.99] hit_then_sample: occlusion from which the cone counts as blocked
 uniform float hit_radius = 1.0;       //! [0.25, 16] (voxels) hit_then_sample: radius of the sphere that is looked up
@@ -36,6 +37,16 @@ uniform float hit_radius = 1.0;       //! [0.25, 16] (voxels) hit_then_sample: r
 #endif
 #ifndef DVS_WITHOUT_DIRECTIONS
 uniform sampler3D dvs_directional; // six tiles; from the base level on, or from half the resolution
+#endif
+
+#if emitters_apart
+#ifdef DVS_HITS_TRIANGLES // of samplers there are few
+layout(FORMAT_voxels_emission) readonly uniform image3D voxels_emission; //! optional
+#define VOXEL_EMISSION(voxel) imageLoad(voxels_emission, voxel).rgb
+#else
+uniform sampler3D voxels_emission; //! optional
+#define VOXEL_EMISSION(voxel) texelFetch(voxels_emission, voxel, 0).rgb
+#endif
 #endif
 
 VoxelGrid cone_grid() {
@@ -107,6 +118,17 @@ vec3 colour_of_side(sampler3D volume, ivec3 voxel, bool front) {
     return texelFetch(volume, voxel + ivec3(0, 0, !front && size.z > size.x ? size.x : 0), 0).rgb;
 }
 
+// What a ray brings that ends at a voxel's side.
+vec3 colour_at_hit(ivec3 voxel, bool front) {
+    vec3 colour = colour_of_side(DVS_BASE, voxel, front);
+#if emitters_apart
+#ifdef HAS_voxels_emission
+    colour = max(colour - VOXEL_EMISSION(voxel), vec3(0.0)); // both sides emit
+#endif
+#endif
+    return colour;
+}
+
 struct Traced {
     vec3 colour;
     float occlusion;         // α
@@ -128,7 +150,7 @@ Traced trace_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter, flo
     if (hit_then_sample && exact_hits) {
         VoxelHit hit = find_blocking_voxel(grid, apex + start_offset * grid.voxel * direction, direction, 0.0);
         if (hit.t < 0.0) return cone;
-        cone.colour = colour_of_side(DVS_BASE, hit.voxel, hit.walk.front);
+        cone.colour = colour_at_hit(hit.voxel, hit.walk.front);
         cone.occlusion = 1.0;
         cone.ambient_occlusion = 1.0 / (1.0 + ambient_decay * 0.5 * diameter * hit.t / grid.voxel);
         return cone;

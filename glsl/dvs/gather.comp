@@ -3,7 +3,6 @@
 // a = 1 − δ, the ambient occlusion of the same cones (section VIII.B). At less than full resolution each texel takes the pixel at its middle.
 uniform int hit = 1; //! static {voxel, plane, triangle, near_triangle} exact hits: the voxel, its plane, triangles, these near by
 uniform float near_share = 0.05; //! [0.001, 1] (scene diagonals) hit near_triangle: how far triangles count, and voxels beyond
-uniform bool emitters_apart = false; //! static hit triangle: emission that rays meet is left to passes of its own
 #define CHOOSES_HITS
 #if hit >= hit_triangle
 #include "dvs/triangle_cone.glsl"

@@ -1,11 +1,14 @@
 #ifndef DVS_TRIANGLE_CONE_GLSL
 #define DVS_TRIANGLE_CONE_GLSL
 // Rays that triangles block (traced/trace.glsl): what the hit itself sends on of the lights' own light, which the shadow maps
-// tell, and of what it emits; and what light bounced between voxels before, which is smooth, from the voxel there, for the
+// tell, and of what it emits (or, with emitters_apart, of what emitters send it); and what light bounced between voxels before, which is smooth, from the voxel there, for the
 // surface's own albedo. With near_triangle that holds for what is near, and beyond it for voxels alone.
 #define DVS_HITS_TRIANGLES
 #include "dvs/cone.glsl"
 #include "traced/light.glsl"
+#if emitters_apart
+#include "traced/emitter_rays.glsl"
+#endif
 #include "surface/start.glsl"
 
 // As images: of samplers there are few.
@@ -43,10 +46,18 @@ Traced trace_triangle_cone(VoxelGrid grid, ConeStart start, StartPoint exact, ve
     if (met.draw != k_nothing) {
 #if emitters_apart
         TracedSurface s = surface_at(met, direction, 0);
+        cone.colour = scattered_light(s, -direction, true, seed);
+#ifdef HAS_traced_emitters
+        if (any_emitters()) {
+            PixelSampler chances = pixel_sampler(seed, 0u);
+            vec3 l, light = emitter_light(s, 0.0, chances, l);
+            cone.colour += light * k_pi * diffuse_lobe(s.shading, -direction, l, s.base_colour, s.metallic, s.roughness);
+        }
+#endif
 #else
         TracedSurface s = surface_at(met, direction, k_with_emission);
-#endif
         cone.colour = s.emission + scattered_light(s, -direction, true, seed);
+#endif
         vec3 bounced = bounced_irradiance(grid, s);
         if (bounced != vec3(0.0)) cone.colour += bounced * diffuse_albedo(s.base_colour, s.metallic, s.roughness, dot(s.shading, -direction));
     } else {
@@ -54,7 +65,7 @@ Traced trace_triangle_cone(VoxelGrid grid, ConeStart start, StartPoint exact, ve
         VoxelHit beyond = find_blocking_voxel(grid, start.apex, direction, near);
         t = beyond.t;
         if (t < 0.0) return Traced(vec3(0.0), 0.0, 0.0);
-        cone.colour = colour_of_side(DVS_BASE, beyond.voxel, beyond.walk.front);
+        cone.colour = colour_at_hit(beyond.voxel, beyond.walk.front);
 #else
         return Traced(vec3(0.0), 0.0, 0.0);
 #endif

@@ -6,7 +6,9 @@
 #include "voxel/walk_to_hit.glsl"
 
 uniform sampler3D dvs_radiance;    //! optional
+#if !emitters_apart
 uniform sampler3D voxels_emission; //! optional
+#endif
 
 Blocker find_blocker(VoxelGrid grid, vec3 apex, vec3 direction, float from) {
     VoxelHit hit = find_blocking_voxel(grid, apex, direction, from);
@@ -16,8 +18,10 @@ Blocker find_blocker(VoxelGrid grid, vec3 apex, vec3 direction, float from) {
 // What a voxel's side sends on but for what the lights' own light makes it send.
 vec3 colour_without_lights(ivec3 voxel, bool front) {
     vec3 colour = max(colour_of_side(dvs_base, voxel, front) - colour_of_side(dvs_radiance, voxel, front), vec3(0.0));
+#if !emitters_apart
 #ifdef HAS_voxels_emission
     colour += texelFetch(voxels_emission, voxel, 0).rgb;
+#endif
 #endif
     return colour;
 }

@@ -1,13 +1,7 @@
 #ifndef TRACED_ALPHA_GLSL
 #define TRACED_ALPHA_GLSL
 // Whether a triangle is there where a ray met it.
-#define SCENE_DRAWS
-#define SCENE_MATERIALS
-#define SCENE_GEOMETRY
-#define SCENE_LIGHTS // for those who include this: lib/scene.glsl is read once
-#include "lib/scene.glsl"
-#include "lib/scene_textures.glsl"
-#include "lib/coverage.glsl"
+#include "traced/hit.glsl"
 
 uniform usampler2D traced_alpha; //! optional
 

@@ -1,7 +1,8 @@
 #ifndef TRACED_EMITTER_LIGHT_GLSL
 #define TRACED_EMITTER_LIGHT_GLSL
 // Light of emissive triangles at a surface by shadow rays toward drawn points, weighted against the rays of its diffuse
-// lobe (Veach 1997).
+// lobe (Veach 1997). What is in the way, emitter_is_hidden says; whoever includes this file defines it, or includes
+// traced/emitter_rays.glsl (triangles) or dvs/emitter_shadow.glsl (voxels).
 #include "lib/sampling.glsl"
 #include "traced/light_tables.glsl"
 #include "lib/sampler.glsl"
@@ -13,6 +14,9 @@ float largest(vec3 v) {
     return max(v.r, max(v.g, v.b));
 }
 
+// Whether anything lies between the surface and the point that was drawn. `seed`: of draws for blended surfaces.
+bool emitter_is_hidden(TracedSurface s, LightSample drawn, uint seed);
+
 #ifdef HAS_traced_emitters
 // What one shadow ray brings, per π; of the lobe's rays there are `own_rays` for each. `l`: from where.
 vec3 emitter_light(TracedSurface s, float own_rays, inout PixelSampler chances, out vec3 l) {
@@ -21,7 +25,7 @@ vec3 emitter_light(TracedSurface s, float own_rays, inout PixelSampler chances, 
     l = drawn.direction;
     float nl = dot(s.shading, l);
     bool reaches = drawn.density > 0.0 && nl > 0.0 && dot(s.face, l) > 0.0 && largest(drawn.radiance) > 0.0;
-    if (!reaches || trace_any(start_off(s), drawn.to_end, drawn.reach, sampler_key(chances, 3u))) return vec3(0.0);
+    if (!reaches || emitter_is_hidden(s, drawn, sampler_key(chances, 3u))) return vec3(0.0);
     return drawn.radiance * (nl * mis_weight(drawn.density, own_rays * nl / k_pi) / (k_pi * drawn.density));
 }
 #endif

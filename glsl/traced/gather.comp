@@ -4,7 +4,7 @@
 // environment. a of the first: 1 − occlusion.
 #include "lib/frame.glsl"
 #include "voxel/directions.glsl"
-#include "traced/emitter_light.glsl"
+#include "traced/emitter_rays.glsl"
 #include "traced/light.glsl"
 #include "surface/start.glsl"
 

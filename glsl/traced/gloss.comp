@@ -4,7 +4,7 @@
 // that it can be filtered. a: how many pixels wide that filter may be, by the lobe's width at the hit as the camera sees it.
 #include "lib/frame.glsl"
 #include "traced/lobes.glsl"
-#include "traced/emitter_light.glsl"
+#include "traced/emitter_rays.glsl"
 #include "traced/light.glsl"
 #include "surface/start.glsl"
 #include "lib/specular_albedo.glsl"

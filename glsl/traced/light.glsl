@@ -3,6 +3,7 @@
 // What the punctual lights send to a traced surface: by shadow rays, or by the shadow maps.
 #include "lib/shadow.glsl"
 #include "traced/surface.glsl"
+#include "traced/trace.glsl"
 
 uniform bool shadow_rays = false; //! static light at hits: a ray toward each light; off: the shadow maps
 #if !shadow_rays

@@ -4,6 +4,7 @@
 #include "lib/frame.glsl"
 #include "lib/camera.glsl"
 #include "traced/lobes.glsl"
+#include "traced/trace.glsl"
 #include "traced/light_tables.glsl"
 #include "traced/soft_lights.glsl"
 #include "lib/sampler.glsl"

@@ -2,7 +2,7 @@
 #define TRACED_SURFACE_GLSL
 // The surface where a ray hit, seen from the ray's side.
 #include "lib/material_model.glsl"
-#include "traced/trace.glsl"
+#include "traced/hit.glsl"
 
 struct TracedSurface {
     vec3 position;

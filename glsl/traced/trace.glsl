@@ -5,15 +5,6 @@
 #include "traced/alpha.glsl"
 #include "traced/walk.glsl"
 
-const uint k_nothing = 0xffffffffu;
-
-struct TracedHit {
-    float t;     // in lengths of the direction
-    uint draw;   // k_nothing: none
-    uint corner; // of the triangle: its first index in scene_indices
-    vec2 uv;     // weights of its second and third corner
-};
-
 // Of two triangles in one place the first of the scene is hit, whatever the tree.
 bool is_before(TracedHit a, TracedHit b) {
     return a.t < b.t || (a.t == b.t && (a.draw < b.draw || (a.draw == b.draw && a.corner < b.corner)));

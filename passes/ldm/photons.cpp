@@ -1,4 +1,4 @@
-// Photon tracing (LDM, section 4.2): the photons of point and spot lights, split at their first hit over the axes of
+// Photon tracing (LDM, section 4.2): the photons of punctual lights, split at their first hit over the axes of
 // each batch of layered depth maps, traced in them, and stored where the camera sees them arrive.
 #include "ldm/photons.h"
 
@@ -29,7 +29,7 @@ class PhotonsPass : public Pass {
     }
 
     std::string skip_reason(const SceneFacts& facts) const override {
-        return facts.point_lights + facts.spot_lights ? "" : "the scene has no point or spot light";
+        return facts.lights() ? "" : "the scene has no lights";
     }
 
     void declare(Declaration& d) override {

@@ -26,7 +26,7 @@ class SplatPass : public Pass {
     }
 
     std::string skip_reason(const SceneFacts& facts) const override {
-        return facts.point_lights + facts.spot_lights ? "" : "the scene has no point or spot light";
+        return facts.lights() ? "" : "the scene has no lights";
     }
 
     void declare(Declaration& d) override {

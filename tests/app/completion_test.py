@@ -53,11 +53,14 @@ class Completion(ProgramTest):
 class Lists(Completion):
     def test_names_are_those_of_the_files(self):
         for kind in ("shots", "graphs", "sweeps", "tables"):
-            files = sorted(path.stem for path in (self.root / "assets" / kind).glob("*.json"))
+            folder = self.root / "assets" / kind
+            files = sorted(str(path.relative_to(folder).with_suffix("")) for path in folder.rglob("*.json") if "base" not in path.parts)
             self.assertTrue(files)
             self.assertEqual(self.names(kind), files)
         self.assertIn("atrium", self.names("scenes"))
         self.assertIn("relative_rmse", self.names("metrics"))
+        self.assertIn("presets/traced_best", self.names("graphs"))
+        self.assertIn("presets/traced_best", self.names("presets"))
         for preset in self.names("presets"):
             self.assertIn('"extends"', (self.root / f"assets/graphs/{preset}.json").read_text())
         (self.root / "assets/graphs/mine.json").write_text('{"version": 1, "extends": "direct"}')

@@ -202,6 +202,7 @@ TEST_F(DebugViews, MosaicShowsEachLayersTexels) {
 TEST_F(DebugViews, RecordedConesAreThoseOfTheGather) {
     for (const char* graph : {"lrsm", "lrsm_tuned"}) {
         open(graph, {}, {"inspect"});
+        set("gather.hit_lookup", "layers"); // the walk has no spheres of layers to record
         int surfaces = 0, lit = 0;
         for (glm::vec2 place : {glm::vec2(0.5f), {0.2f, 0.6f}, {0.45f, 0.8f}, {0.7f, 0.6f}, {0.02f, 0.02f}}) {
             for (const char* step : {"0.5", "1.5"}) {
