@@ -48,7 +48,8 @@ int first_in_cell(GridWalk walk, vec3 origin, vec3 direction, float start, out f
     return found;
 }
 
-// The first disc on a ray's way from cell to cell, or −1: the march stops in the first cell where it meets any.
+// The first disc on a ray's way from cell to cell, or −1: the march stops in the first cell where it meets any. It ends at the
+// sides of the grid, which holds the scene: there discs are cut that reach beyond the surfaces at its rim.
 int first_disc(vec3 origin, vec3 direction, float start, out float t) {
     GridWalk walk = start_walk(grid.origin, grid.cell, grid.size, origin, direction);
     t = 3.0e38;

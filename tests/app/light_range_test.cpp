@@ -74,7 +74,7 @@ class LightRangeTest : public GpuTest {
         const std::pair<const char*, const char*> small[] = {
             {"shadow_maps.resolution", "128"},     {"rsm.resolution", "64"}, {"voxelization.resolution", "32"},
             {"occlusion_voxels.resolution", "32"}, {"ldm.resolution", "32"}, {"ldm.maps", "32"},
-            {"lrsm_layers.depth_layers", "2"}};
+            {"lrsm_layers.depth_layers", "2"},     {"vpls.vpls", "256"},     {"splat.points", "2000"}};
         for (const auto& [name, value] : small)
             if (std::find(known.begin(), known.end(), name) != known.end())
                 session->set_parameter(name, value, ParameterOrigin::command_line);
