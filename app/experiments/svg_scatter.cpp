@@ -36,6 +36,24 @@ constexpr int k_width = 720, k_height = 420, k_left = 70, k_right = 170, k_top =
 const char* const k_colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                  "#e69f00", "#56b4e9", "#000000", "#f0e442"};
 
+/// The mark of the index-th graph: a colour of its own, and where these are used up another shape. `inside`: its title.
+std::string mark(int index, double x, double y, double radius, double opacity, const std::string& inside) {
+    const size_t colours = std::size(k_colours);
+    const std::string look =
+        fmt::format("fill=\"{0}\" fill-opacity=\"{1}\" stroke=\"{0}\"", k_colours[size_t(index) % colours], opacity);
+    const double r = 1.1 * radius;
+    switch (size_t(index) / colours % 3) {
+    case 0:
+        return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" {}>{}</circle>\n", x, y, radius, look, inside);
+    case 1:
+        return fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" {}>{}</rect>\n", x - r,
+                           y - r, 2 * r, 2 * r, look, inside);
+    default:
+        return fmt::format("<path d=\"M{:.1f} {:.1f} l{:.1f} {:.1f} h{:.1f} z\" {}>{}</path>\n", x, y - 1.3 * r,
+                           1.3 * r, 2.2 * r, -2.6 * r, look, inside);
+    }
+}
+
 /// A logarithmic axis over whole decades or, when the values span less, over 1-2-5 steps.
 struct Axis {
     double low = 1, high = 10;
@@ -154,20 +172,18 @@ std::string plot(const std::string& shot, const std::vector<const ChartPoint*>& 
             out += joined(line, false, k_colours[size_t(colours.at(graph)) % std::size(k_colours)]);
     }
     for (const ChartPoint* p : points) {
-        const char* colour = k_colours[size_t(colours.at(p->task.session.graph)) % std::size(k_colours)];
-        out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\" fill-opacity=\"{}\" "
-                           "stroke=\"{}\"><title>{}\n{:.3g} ms, {}, {:.1f} MiB{}</title></circle>\n",
-                           x(place_of(p)), y(error_of(p)), p->on_front ? 5 : 3.5, colour, p->on_front ? 1.0 : 0.35,
-                           colour, escape_markup(p->task.label()), p->total_ms,
-                           escape_markup(metric.title + " " + metric_text(metric, p->same_transport, absolute)),
-                           double(p->bytes) / 1048576.0, p->on_front ? ", on the Pareto front" : "");
+        const std::string title =
+            fmt::format("<title>{}\n{:.3g} ms, {}, {:.1f} MiB{}</title>", escape_markup(p->task.label()), p->total_ms,
+                        escape_markup(metric.title + " " + metric_text(metric, p->same_transport, absolute)),
+                        double(p->bytes) / 1048576.0, p->on_front ? ", on the Pareto front" : "");
+        out += mark(colours.at(p->task.session.graph), x(place_of(p)), y(error_of(p)), p->on_front ? 5 : 3.5,
+                    p->on_front ? 1.0 : 0.35, title);
     }
     int row = 0;
     for (const auto& [graph, index] : colours) {
         int at = top + k_top + 10 + 18 * row++;
-        out += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"5\" fill=\"{}\"/><text x=\"{}\" y=\"{}\">{}</text>\n",
-                           k_width - k_right + 18, at, k_colours[size_t(index) % std::size(k_colours)],
-                           k_width - k_right + 30, at + 4, escape_markup(graph));
+        out += mark(index, k_width - k_right + 18, at, 5, 1, "");
+        out += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", k_width - k_right + 30, at + 4, escape_markup(graph));
     }
     out += fmt::format("<text x=\"{}\" y=\"{}\" fill=\"#666\">full: on the Pareto front</text>\n",
                        k_width - k_right + 12, top + k_top + 20 + 18 * row);

@@ -20,9 +20,10 @@ class Digest {
             std::memcpy(&word, from, 8);
             mix(word);
         }
+        if (size == 0) return *this; // where `data` may be null
         uint64_t rest = 0;
         std::memcpy(&rest, from, size);
-        if (size) mix(rest);
+        mix(rest);
         return *this;
     }
     Digest& add(std::string_view text) { return bytes(text.data(), text.size()); }

@@ -50,17 +50,17 @@ std::vector<CallState::Binding> CallState::bindings_of(GLuint which,
         GLint unit = 0;
         glGetUniformiv(which, values[1], &unit); // of arrays: the program sets their units one after another
         const std::string name = resource_name(which, GL_UNIFORM, i);
-        bindings.push_back({name, image ? Route::image : Route::sampler, GLuint(unit), GLuint(std::max(values[2], 1)),
-                            image ? memory_of(name) : ShaderMemory{true, false}});
+        bindings.push_back({name, image ? MemoryRoute::image : MemoryRoute::sampler, GLuint(unit),
+                            GLuint(std::max(values[2], 1)), image ? memory_of(name) : ShaderMemory{true, false}});
     }
     for (GLuint i = 0; i < active(which, GL_SHADER_STORAGE_BLOCK); ++i) {
         const auto values = properties(which, GL_SHADER_STORAGE_BLOCK, i, {GL_BUFFER_BINDING});
         const std::string name = resource_name(which, GL_SHADER_STORAGE_BLOCK, i);
-        bindings.push_back({name, Route::storage, GLuint(values[0]), 1, memory_of(name)});
+        bindings.push_back({name, MemoryRoute::storage, GLuint(values[0]), 1, memory_of(name)});
     }
     for (GLuint i = 0; i < active(which, GL_UNIFORM_BLOCK); ++i) {
         const auto values = properties(which, GL_UNIFORM_BLOCK, i, {GL_BUFFER_BINDING});
-        bindings.push_back({resource_name(which, GL_UNIFORM_BLOCK, i), Route::uniform, GLuint(values[0]), 1,
+        bindings.push_back({resource_name(which, GL_UNIFORM_BLOCK, i), MemoryRoute::uniform, GLuint(values[0]), 1,
                             ShaderMemory{true, false}});
     }
     return bindings;
@@ -110,11 +110,11 @@ void CallState::add_program(std::vector<MemoryUse>& uses, std::vector<std::strin
         const ShaderMemory& memory = binding.memory;
         for (GLuint i = 0; i < binding.count; ++i) {
             MemoryUse use{{}, binding.route, memory.reads, memory.writes, binding.name};
-            if (binding.route == Route::sampler) {
+            if (binding.route == MemoryRoute::sampler) {
                 auto bound = sampled.find(binding.unit + i);
                 if (bound == sampled.end() || !bound->second) continue;
                 use.range = whole_texture(bound->second);
-            } else if (binding.route == Route::image) {
+            } else if (binding.route == MemoryRoute::image) {
                 auto bound = images.find(binding.unit + i);
                 if (bound == images.end() || !bound->second.texture) continue;
                 const ImageUnit& unit = bound->second;
@@ -125,7 +125,7 @@ void CallState::add_program(std::vector<MemoryUse>& uses, std::vector<std::strin
                     problems.push_back(fmt::format("image '{}' of {} is bound to another format than its shader states",
                                                    binding.name, describe(use.range)));
             } else {
-                const auto& units = binding.route == Route::storage ? storage : uniforms;
+                const auto& units = binding.route == MemoryRoute::storage ? storage : uniforms;
                 auto bound = units.find(binding.unit);
                 if (bound == units.end() || !bound->second.buffer) continue;
                 use.range = buffer_range(bound->second.buffer, bound->second.begin, bound->second.end);
@@ -140,7 +140,7 @@ void CallState::add_framebuffer(std::vector<MemoryUse>& uses) const {
     if (found == framebuffers.end()) return;
     for (const auto& [attachment, target] : found->second) {
         const MemoryRange whole = whole_texture(target.texture);
-        MemoryUse use{{}, Route::framebuffer, true, true, ""};
+        MemoryUse use{{}, MemoryRoute::framebuffer, true, true, ""};
         use.range = texture_range(target.texture, target.level, 1, std::max(target.layer, 0),
                                   target.layer >= 0 ? 1 : int(whole.end - whole.begin));
         uses.push_back(use);
@@ -151,15 +151,15 @@ void CallState::add_vertices(std::vector<MemoryUse>& uses, bool indices) const {
     auto found = vertex_arrays.find(vertex_array);
     if (found == vertex_arrays.end()) return;
     for (const auto& [binding, buffer] : found->second.buffers)
-        if (buffer) uses.push_back({buffer_range(buffer, 0, -1), Route::vertices, true, false, ""});
+        if (buffer) uses.push_back({buffer_range(buffer, 0, -1), MemoryRoute::vertices, true, false, ""});
     if (indices && found->second.indices)
-        uses.push_back({buffer_range(found->second.indices, 0, -1), Route::indices, true, false, ""});
+        uses.push_back({buffer_range(found->second.indices, 0, -1), MemoryRoute::indices, true, false, ""});
 }
 
 void CallState::add_indirect(std::vector<MemoryUse>& uses, GLenum target, int64_t offset, int64_t bytes) const {
     auto found = indirect.find(target);
     if (found == indirect.end() || !found->second) return;
-    uses.push_back({buffer_range(found->second, offset, offset + bytes), Route::indirect, true, false, ""});
+    uses.push_back({buffer_range(found->second, offset, offset + bytes), MemoryRoute::indirect, true, false, ""});
 }
 
 std::string CallState::label(GLenum kind, GLuint name, const char* otherwise) const {

@@ -72,7 +72,7 @@ class CallState {
   private:
     struct Binding {
         std::string name;
-        Route route = Route::sampler;
+        MemoryRoute route = MemoryRoute::sampler;
         GLuint unit = 0, count = 1;
         ShaderMemory memory;
     };

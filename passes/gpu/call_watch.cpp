@@ -10,11 +10,12 @@
 // Each watched function: the driver's own is kept as real_NAME, and a lambda takes its place in glad's table.
 #define BOUNCE_WATCHED(WATCH)                                                                                          \
     WATCH(UseProgram)                                                                                                  \
-    WATCH(DeleteProgram) WATCH(ShaderSource) WATCH(AttachShader) WATCH(LinkProgram) WATCH(BindTextureUnit)             \
-        WATCH(BindImageTexture) WATCH(BindBufferBase) WATCH(BindBufferRange) WATCH(BindBuffer) WATCH(BindFramebuffer)  \
-            WATCH(BindVertexArray) WATCH(VertexArrayVertexBuffer) WATCH(VertexArrayElementBuffer)                      \
-                WATCH(CreateTextures) WATCH(TextureStorage2D) WATCH(TextureStorage3D) WATCH(TextureView)               \
-                    WATCH(DeleteTextures) WATCH(CreateBuffers) WATCH(DeleteBuffers) WATCH(NamedFramebufferTexture)     \
+    WATCH(DeleteProgram)                                                                                               \
+    WATCH(ShaderSource) WATCH(AttachShader) WATCH(LinkProgram) WATCH(BindTextureUnit) WATCH(BindImageTexture)          \
+        WATCH(BindBufferBase) WATCH(BindBufferRange) WATCH(BindBuffer) WATCH(BindFramebuffer) WATCH(BindVertexArray)   \
+            WATCH(VertexArrayVertexBuffer) WATCH(VertexArrayElementBuffer) WATCH(CreateTextures)                       \
+                WATCH(TextureStorage2D) WATCH(TextureStorage3D) WATCH(TextureView) WATCH(DeleteTextures)               \
+                    WATCH(CreateBuffers) WATCH(DeleteBuffers) WATCH(NamedFramebufferTexture)                           \
                         WATCH(NamedFramebufferTextureLayer) WATCH(DeleteFramebuffers) WATCH(ObjectLabel)               \
                             WATCH(PushDebugGroup) WATCH(PopDebugGroup) WATCH(MemoryBarrier) WATCH(DispatchCompute)     \
                                 WATCH(DispatchComputeIndirect) WATCH(DrawArraysInstanced) WATCH(DrawArraysIndirect)    \
@@ -85,12 +86,12 @@ void draw(bool indices, GLenum indirect_target, int64_t offset) {
 
 void transfer_texture(const char* what, GLuint texture, GLint level, int layer, int layers, bool writes) {
     MemoryRange range = g_watch->state.texture_range(texture, level, 1, layer, layers);
-    run(what, {{range, Route::texture_transfer, !writes, writes, ""}});
+    run(what, {{range, MemoryRoute::texture_transfer, !writes, writes, ""}});
 }
 
 void transfer_buffer(const char* what, GLuint buffer, int64_t offset, int64_t bytes, bool writes) {
     MemoryRange range = CallState::buffer_range(buffer, offset, bytes < 0 ? -1 : offset + bytes);
-    run(what, {{range, Route::buffer_transfer, !writes, writes, ""}});
+    run(what, {{range, MemoryRoute::buffer_transfer, !writes, writes, ""}});
 }
 
 void new_texture(GLuint texture, int mips, int layers) {

@@ -15,7 +15,7 @@ struct RouteText {
 };
 } // namespace
 
-static const RouteText& entry(Route route) {
+static const RouteText& entry(MemoryRoute route) {
     static const RouteText entries[] = {
         {"sampler", GL_TEXTURE_FETCH_BARRIER_BIT, "GL_TEXTURE_FETCH_BARRIER_BIT"},
         {"image", GL_SHADER_IMAGE_ACCESS_BARRIER_BIT, "GL_SHADER_IMAGE_ACCESS_BARRIER_BIT"},
@@ -31,11 +31,11 @@ static const RouteText& entry(Route route) {
     return entries[size_t(route)];
 }
 
-GLbitfield barrier_bit(Route route) {
+GLbitfield barrier_bit(MemoryRoute route) {
     return entry(route).bit;
 }
 
-const char* to_string(Route route) {
+const char* to_string(MemoryRoute route) {
     return entry(route).text;
 }
 

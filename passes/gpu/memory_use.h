@@ -9,7 +9,7 @@
 namespace bounce {
 
 /// How a command reaches memory. Each route has its own bit of glMemoryBarrier (OpenGL 4.6, §7.13.2).
-enum class Route {
+enum class MemoryRoute {
     sampler,
     image,
     storage,
@@ -21,8 +21,8 @@ enum class Route {
     texture_transfer, ///< uploads, copies, clears and read-backs of textures
     buffer_transfer,  ///< the same of buffers, and mapping
 };
-GLbitfield barrier_bit(Route route);
-const char* to_string(Route route);
+GLbitfield barrier_bit(MemoryRoute route);
+const char* to_string(MemoryRoute route);
 
 /// A texture's mips and layers (slices of a volume), or a buffer's bytes. Ends are excluded.
 struct MemoryRange {
@@ -44,13 +44,13 @@ struct MemoryRange {
 
 struct MemoryUse {
     MemoryRange range;
-    Route route = Route::sampler;
+    MemoryRoute route = MemoryRoute::sampler;
     bool reads = false, writes = false;
     std::string name; ///< in the shader; empty for what no shader names
 
     /// What OpenGL does not order by itself: the stores of shaders.
-    bool stores() const { return writes && (route == Route::image || route == Route::storage); }
-    bool by_shader() const { return route <= Route::indices; }
+    bool stores() const { return writes && (route == MemoryRoute::image || route == MemoryRoute::storage); }
+    bool by_shader() const { return route <= MemoryRoute::indices; }
     bool operator==(const MemoryUse&) const = default;
 };
 

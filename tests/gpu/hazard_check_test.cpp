@@ -12,11 +12,12 @@ using testing::IsEmpty;
 
 namespace {
 
-constexpr Route k_routes[] = {Route::sampler,          Route::image,          Route::storage,  Route::uniform,
-                              Route::vertices,         Route::indices,        Route::indirect, Route::framebuffer,
-                              Route::texture_transfer, Route::buffer_transfer};
+constexpr MemoryRoute k_routes[] = {
+    MemoryRoute::sampler,          MemoryRoute::image,          MemoryRoute::storage,  MemoryRoute::uniform,
+    MemoryRoute::vertices,         MemoryRoute::indices,        MemoryRoute::indirect, MemoryRoute::framebuffer,
+    MemoryRoute::texture_transfer, MemoryRoute::buffer_transfer};
 
-MemoryUse use(Route route, bool reads, bool writes, MemoryRange range = {7}) {
+MemoryUse use(MemoryRoute route, bool reads, bool writes, MemoryRange range = {7}) {
     return {range, route, reads, writes, ""};
 }
 
@@ -32,8 +33,8 @@ std::vector<std::string> found(const std::vector<std::pair<MemoryUse, GLbitfield
 } // namespace
 
 TEST(HazardCheck, WhatFollowsAStoreNeedsTheBitOfItsOwnRoute) {
-    for (Route store : {Route::image, Route::storage}) {
-        for (Route later : k_routes) {
+    for (MemoryRoute store : {MemoryRoute::image, MemoryRoute::storage}) {
+        for (MemoryRoute later : k_routes) {
             const MemoryUse after = use(later, true, false);
             EXPECT_EQ(found({{use(store, false, true), 0}, {after, 0}}).size(), 1u) << to_string(later);
             EXPECT_THAT(found({{use(store, false, true), barrier_bit(later)}, {after, 0}}), IsEmpty());
@@ -45,57 +46,62 @@ TEST(HazardCheck, WhatFollowsAStoreNeedsTheBitOfItsOwnRoute) {
 }
 
 TEST(HazardCheck, WhatOpenGlOrdersItselfNeedsNone) {
-    for (Route writer : {Route::framebuffer, Route::texture_transfer, Route::buffer_transfer})
-        for (Route later : k_routes)
+    for (MemoryRoute writer : {MemoryRoute::framebuffer, MemoryRoute::texture_transfer, MemoryRoute::buffer_transfer})
+        for (MemoryRoute later : k_routes)
             EXPECT_THAT(found({{use(writer, false, true), 0}, {use(later, true, false), 0}}), IsEmpty());
-    for (Route later : k_routes)
-        EXPECT_THAT(found({{use(Route::image, true, false), 0}, {use(later, true, false), 0}}), IsEmpty())
+    for (MemoryRoute later : k_routes)
+        EXPECT_THAT(found({{use(MemoryRoute::image, true, false), 0}, {use(later, true, false), 0}}), IsEmpty())
             << "two reads";
 }
 
 TEST(HazardCheck, AStoreWaitsForReadsByItsOwnBit) {
-    const MemoryUse read = use(Route::sampler, true, false), store = use(Route::image, false, true);
+    const MemoryUse read = use(MemoryRoute::sampler, true, false), store = use(MemoryRoute::image, false, true);
     EXPECT_EQ(found({{read, 0}, {store, 0}}).size(), 1u);
     EXPECT_EQ(found({{read, GL_TEXTURE_FETCH_BARRIER_BIT}, {store, 0}}).size(), 1u) << "the reader's bit";
     EXPECT_THAT(found({{read, GL_SHADER_IMAGE_ACCESS_BARRIER_BIT}, {store, 0}}), IsEmpty());
-    EXPECT_THAT(found({{read, 0}, {use(Route::framebuffer, true, true), 0}}), IsEmpty());
-    EXPECT_THAT(found({{use(Route::texture_transfer, true, false), 0}, {store, 0}}), IsEmpty());
+    EXPECT_THAT(found({{read, 0}, {use(MemoryRoute::framebuffer, true, true), 0}}), IsEmpty());
+    EXPECT_THAT(found({{use(MemoryRoute::texture_transfer, true, false), 0}, {store, 0}}), IsEmpty());
 }
 
 TEST(HazardCheck, OtherMemoryIsNotConcerned) {
     const MemoryRange mip_1{7, false, 1, 2, 0, 4}, mip_2{7, false, 2, 3, 0, 4}, layer_3{7, false, 1, 2, 3, 4};
-    EXPECT_THAT(found({{use(Route::image, false, true, mip_1), 0}, {use(Route::sampler, true, false, mip_2), 0}}),
-                IsEmpty());
+    EXPECT_THAT(
+        found({{use(MemoryRoute::image, false, true, mip_1), 0}, {use(MemoryRoute::sampler, true, false, mip_2), 0}}),
+        IsEmpty());
     EXPECT_EQ(
-        found({{use(Route::image, false, true, mip_1), 0}, {use(Route::sampler, true, false, layer_3), 0}}).size(), 1u);
+        found({{use(MemoryRoute::image, false, true, mip_1), 0}, {use(MemoryRoute::sampler, true, false, layer_3), 0}})
+            .size(),
+        1u);
     const MemoryRange buffer{7, true, 0, 1, 0, 4};
-    EXPECT_THAT(found({{use(Route::image, false, true, mip_1), 0}, {use(Route::storage, true, false, buffer), 0}}),
-                IsEmpty())
+    EXPECT_THAT(
+        found({{use(MemoryRoute::image, false, true, mip_1), 0}, {use(MemoryRoute::storage, true, false, buffer), 0}}),
+        IsEmpty())
         << "a buffer of the same number";
     HazardCheck check;
-    check.command({"a", {use(Route::image, false, true)}});
+    check.command({"a", {use(MemoryRoute::image, false, true)}});
     check.forget(7, false);
-    check.command({"b", {use(Route::sampler, true, false)}});
+    check.command({"b", {use(MemoryRoute::sampler, true, false)}});
     EXPECT_THAT(check.hazards(), IsEmpty()) << "a new texture of the same number";
 }
 
 TEST(HazardCheck, OneCommandMustNotTouchByTwoBindingsWhatItWrites) {
     HazardCheck check;
-    check.command({"pass 'x'", {use(Route::image, false, true), use(Route::sampler, true, false)}});
+    check.command({"pass 'x'", {use(MemoryRoute::image, false, true), use(MemoryRoute::sampler, true, false)}});
     EXPECT_THAT(check.hazards(),
                 ElementsAre(AllOf(HasSubstr("pass 'x'"), HasSubstr("texture 7"), HasSubstr("sampler"))));
     HazardCheck reads;
-    reads.command({"x", {use(Route::image, true, false), use(Route::sampler, true, false)}});
-    reads.command(
-        {"y", {use(Route::image, false, true, {7, false, 1, 2}), use(Route::sampler, true, false, {7, false, 0, 1})}});
+    reads.command({"x", {use(MemoryRoute::image, true, false), use(MemoryRoute::sampler, true, false)}});
+    reads.command({"y",
+                   {use(MemoryRoute::image, false, true, {7, false, 1, 2}),
+                    use(MemoryRoute::sampler, true, false, {7, false, 0, 1})}});
     EXPECT_THAT(reads.hazards(), IsEmpty()) << "two reads; and a mip that is made from the finer one";
 }
 
 TEST(HazardCheck, MessagesNameBothSidesAndTheBit) {
     HazardCheck check;
     check.describe = [](const MemoryRange&) { return "'a.b'"; };
-    check.command({"pass 'one'", {{{7}, Route::image, false, true, "a_b"}}});
-    check.command({"pass 'two'", {{{7}, Route::sampler, true, false, "a_c"}}});
+    check.command({"pass 'one'", {{{7}, MemoryRoute::image, false, true, "a_b"}}});
+    check.command({"pass 'two'", {{{7}, MemoryRoute::sampler, true, false, "a_c"}}});
     EXPECT_THAT(check.hazards(),
                 ElementsAre("pass 'two' reads 'a.b' by sampler 'a_c' after pass 'one' by image 'a_b' wrote it: "
                             "GL_TEXTURE_FETCH_BARRIER_BIT is missing between them"));
@@ -103,12 +109,12 @@ TEST(HazardCheck, MessagesNameBothSidesAndTheBit) {
 
 TEST(HazardCheck, TellsWhichBarriersWereNeeded) {
     HazardCheck check;
-    check.command({"a", {use(Route::image, false, true)}});
+    check.command({"a", {use(MemoryRoute::image, false, true)}});
     check.barrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_COMMAND_BARRIER_BIT, "first");
     check.barrier(GL_TEXTURE_FETCH_BARRIER_BIT, "second");
     check.barrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT, "third");
-    check.command({"b", {use(Route::sampler, true, false)}});
-    check.command({"c", {use(Route::image, false, true)}});
+    check.command({"b", {use(MemoryRoute::sampler, true, false)}});
+    check.command({"c", {use(MemoryRoute::image, false, true)}});
     ASSERT_EQ(check.barriers().size(), 3u);
     EXPECT_EQ(check.barriers()[0].used, GLbitfield(GL_TEXTURE_FETCH_BARRIER_BIT));
     EXPECT_EQ(check.barriers()[0].needed, 0u) << "the second gives it as well";
