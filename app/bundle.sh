@@ -25,10 +25,17 @@ package_of() {
     { dpkg -S "$path" || dpkg -S "/usr$path" || dpkg -S "${path#/usr}"; } 2>/dev/null | head -n 1 | cut -d: -f1
 }
 
-# copy_licence PACKAGE BUNDLE
+# copy_licence PACKAGE BUNDLE: packages of one source share theirs, which is kept once.
 copy_licence() {
+    local same
     [[ -f /usr/share/doc/$1/copyright ]] || fail "no licence found for the package '$1' (a bundle can be made on Debian only)"
     gzip -9 -n -c "/usr/share/doc/$1/copyright" >"$2/licenses/$1.txt.gz"
+    for same in "$2"/licenses/*; do
+        [[ -L $same || $same == "$2/licenses/$1.txt.gz" ]] && continue
+        cmp -s "$same" "$2/licenses/$1.txt.gz" || continue
+        ln -sf "$(basename "$same")" "$2/licenses/$1.txt.gz"
+        return
+    done
 }
 
 bundle() {

@@ -3,6 +3,7 @@
 #include "core/log.h"
 #include "gpu/call_state.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <memory>
@@ -11,20 +12,21 @@
 #define BOUNCE_WATCHED(WATCH)                                                                                          \
     WATCH(UseProgram)                                                                                                  \
     WATCH(DeleteProgram)                                                                                               \
-    WATCH(ShaderSource) WATCH(AttachShader) WATCH(LinkProgram) WATCH(BindTextureUnit) WATCH(BindImageTexture)          \
-        WATCH(BindBufferBase) WATCH(BindBufferRange) WATCH(BindBuffer) WATCH(BindFramebuffer) WATCH(BindVertexArray)   \
-            WATCH(VertexArrayVertexBuffer) WATCH(VertexArrayElementBuffer) WATCH(CreateTextures)                       \
-                WATCH(TextureStorage2D) WATCH(TextureStorage3D) WATCH(TextureView) WATCH(DeleteTextures)               \
-                    WATCH(CreateBuffers) WATCH(DeleteBuffers) WATCH(NamedFramebufferTexture)                           \
-                        WATCH(NamedFramebufferTextureLayer) WATCH(DeleteFramebuffers) WATCH(ObjectLabel)               \
-                            WATCH(PushDebugGroup) WATCH(PopDebugGroup) WATCH(MemoryBarrier) WATCH(DispatchCompute)     \
-                                WATCH(DispatchComputeIndirect) WATCH(DrawArraysInstanced) WATCH(DrawArraysIndirect)    \
-                                    WATCH(DrawElementsInstancedBaseInstance) WATCH(CopyImageSubData)                   \
-                                        WATCH(CopyNamedBufferSubData) WATCH(ClearTexImage) WATCH(ClearNamedBufferData) \
-                                            WATCH(GetTextureImage) WATCH(GetTextureSubImage)                           \
-                                                WATCH(GetNamedBufferSubData) WATCH(NamedBufferSubData)                 \
-                                                    WATCH(TextureSubImage2D) WATCH(TextureSubImage3D)                  \
-                                                        WATCH(MapNamedBufferRange)
+    WATCH(ShaderSource)                                                                                                \
+    WATCH(AttachShader)                                                                                                \
+    WATCH(LinkProgram) WATCH(BindTextureUnit) WATCH(BindImageTexture) WATCH(BindBufferBase) WATCH(BindBufferRange)     \
+        WATCH(BindBuffer) WATCH(BindFramebuffer) WATCH(BindVertexArray) WATCH(VertexArrayVertexBuffer)                 \
+            WATCH(VertexArrayElementBuffer) WATCH(CreateTextures) WATCH(TextureStorage2D) WATCH(TextureStorage3D)      \
+                WATCH(TextureView) WATCH(DeleteTextures) WATCH(CreateBuffers) WATCH(DeleteBuffers)                     \
+                    WATCH(NamedFramebufferTexture) WATCH(NamedFramebufferTextureLayer) WATCH(DeleteFramebuffers)       \
+                        WATCH(ObjectLabel) WATCH(PushDebugGroup) WATCH(PopDebugGroup) WATCH(MemoryBarrier)             \
+                            WATCH(DispatchCompute) WATCH(DispatchComputeIndirect) WATCH(DrawArraysInstanced)           \
+                                WATCH(DrawArraysIndirect) WATCH(DrawElementsInstancedBaseInstance)                     \
+                                    WATCH(CopyImageSubData) WATCH(CopyNamedBufferSubData) WATCH(ClearTexImage)         \
+                                        WATCH(ClearNamedBufferData) WATCH(GetTextureImage) WATCH(GetTextureSubImage)   \
+                                            WATCH(GetNamedBufferSubData) WATCH(NamedBufferSubData)                     \
+                                                WATCH(TextureSubImage2D) WATCH(TextureSubImage3D)                      \
+                                                    WATCH(MapNamedBufferRange)
 
 namespace bounce {
 
@@ -39,6 +41,7 @@ struct Watch {
     HazardCheck check;
     int commands = 0;                 ///< in the innermost debug group
     std::vector<MemoryUse> last_draw; ///< empty after anything else
+    GLuint last_program = 0;          ///< of that draw
     int overlooked = -1;
 };
 std::unique_ptr<Watch> g_watch;
@@ -51,7 +54,6 @@ std::string place(const char* what) {
 
 void run(const std::string& what, std::vector<MemoryUse> uses) {
     ++g_watch->commands;
-    g_watch->last_draw.clear();
     g_watch->check.command({place(what.c_str()), std::move(uses)});
 }
 
@@ -64,9 +66,25 @@ void dispatch(GLenum indirect_target, int64_t offset) {
     std::vector<std::string> problems;
     g_watch->state.add_program(uses, problems);
     if (indirect_target) g_watch->state.add_indirect(uses, indirect_target, offset, 12);
+    g_watch->last_draw.clear();
     run("dispatch of " + program_name(), std::move(uses));
     for (const std::string& problem : problems)
         g_watch->check.report(place("dispatch") + ": " + problem);
+}
+
+/// Draws in a row that store to the same memory are one: what orders the invocations of one orders theirs. Of such a
+/// draw, what the one before did not reach: the textures of another material.
+std::vector<MemoryUse> beyond_last_draw(const std::vector<MemoryUse>& uses) {
+    auto stores = [](std::vector<MemoryUse> of) {
+        std::erase_if(of, [](const MemoryUse& use) { return !use.stores(); });
+        return of;
+    };
+    const std::vector<MemoryUse>& last = g_watch->last_draw;
+    std::vector<MemoryUse> beyond = uses;
+    if (g_watch->last_program == g_watch->state.program && stores(uses) == stores(last))
+        std::erase_if(beyond,
+                      [&](const MemoryUse& use) { return std::find(last.begin(), last.end(), use) != last.end(); });
+    return beyond;
 }
 
 void draw(bool indices, GLenum indirect_target, int64_t offset) {
@@ -76,21 +94,22 @@ void draw(bool indices, GLenum indirect_target, int64_t offset) {
     g_watch->state.add_framebuffer(uses);
     g_watch->state.add_vertices(uses, indices);
     if (indirect_target) g_watch->state.add_indirect(uses, indirect_target, offset, 16);
-    // Draws in a row that reach the same memory are one: what orders the invocations of one orders theirs.
-    if (uses == g_watch->last_draw) return;
-    run("draw with " + program_name(), uses);
+    run("draw with " + program_name(), beyond_last_draw(uses));
     g_watch->last_draw = std::move(uses);
+    g_watch->last_program = g_watch->state.program;
     for (const std::string& problem : problems)
         g_watch->check.report(place("draw") + ": " + problem);
 }
 
 void transfer_texture(const char* what, GLuint texture, GLint level, int layer, int layers, bool writes) {
     MemoryRange range = g_watch->state.texture_range(texture, level, 1, layer, layers);
+    g_watch->last_draw.clear();
     run(what, {{range, MemoryRoute::texture_transfer, !writes, writes, ""}});
 }
 
 void transfer_buffer(const char* what, GLuint buffer, int64_t offset, int64_t bytes, bool writes) {
     MemoryRange range = CallState::buffer_range(buffer, offset, bytes < 0 ? -1 : offset + bytes);
+    g_watch->last_draw.clear();
     run(what, {{range, MemoryRoute::buffer_transfer, !writes, writes, ""}});
 }
 
