@@ -5,12 +5,7 @@
 // ν by shadow map, at V_p + N·V_size/2 (section VI.C), or by a ray through the voxels: hard, or soft,
 //   ν ← ν + (1 − ν)·κ/t, t in voxels, of which 1 − ν is left.
 // ρ is the diffuse lobe's albedo for light from Ψ (lib/material_model.glsl).
-// sampled_emitters adds what emissive surfaces send to the voxel, by shadow rays toward points of them.
-uniform bool sampled_emitters = false; //! static voxels are lit by emissive surfaces, too: light that cones find by luck
 #define SCENE_LIGHTS
-#if sampled_emitters
-#include "dvs/emitter_shadow.glsl"
-#endif
 #include "lib/material_model.glsl"
 #include "lib/scene.glsl"
 #include "lib/shadow.glsl"
@@ -36,35 +31,6 @@ uniform int shadow_filter = 0;       //! [0, 3] shadow_map: points per side look
 uniform float ray_start = 1.5;       //! [0.5, 8] (voxels) where a ray starts, past the voxel itself
 uniform float ray_step = 1.0;        //! [0.25, 2] (voxels) from sample to sample of a ray
 uniform float kappa = 0.5;           //! [0, 4] κ: what a collision one voxel away adds to a soft ray's occlusion
-
-#if sampled_emitters
-uniform int emitter_points = 2; //! [1, 64] shadow rays per side of a voxel
-
-// Nothing gathers occlusion along these rays.
-VoxelGrid cone_grid() {
-    return voxel_grid(textureSize(voxels_flags, 0).x, 1, 1, 0);
-}
-float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float level) {
-    return 0.0;
-}
-
-// E/π.
-vec3 emitters_at(vec3 centre, vec3 n, uint side) {
-    vec3 sum = vec3(0.0);
-#ifdef HAS_traced_emitters
-    TracedSurface own;
-    own.position = centre;
-    own.offset = 0.0;
-    own.face = own.shading = n;
-    for (int i = 0; any_emitters() && i < emitter_points; ++i) {
-        PixelSampler chances = pixel_sampler(side, uint(i));
-        vec3 l;
-        sum += emitter_light(own, 0.0, chances, l) / float(emitter_points);
-    }
-#endif
-    return sum;
-}
-#endif
 
 float seen_in_map(Light light, vec3 p) {
     int layer = shadow_layer(light, p);
@@ -126,12 +92,7 @@ vec3 voxel_light(ivec3 voxel, vec3 n, vec3 albedo, int size) {
         }
         sum += irradiance * (cosine * seen * diffuse_share(dot(n, l)));
     }
-    sum *= albedo / 3.14159265359;
-#if sampled_emitters
-    uint side_key = hash_combine(uint(voxel.x | (voxel.y << 10) | (voxel.z << 20)), dot(n, voxel_normal(voxel)) < 0.0 ? 1u : 0u);
-    sum += emitters_at(centre, n, side_key) * albedo * mean_diffuse_share();
-#endif
-    return sum;
+    return sum * albedo / 3.14159265359;
 }
 
 void main() {

@@ -14,19 +14,19 @@
     WATCH(DeleteProgram)                                                                                               \
     WATCH(ShaderSource)                                                                                                \
     WATCH(AttachShader)                                                                                                \
-    WATCH(LinkProgram) WATCH(BindTextureUnit) WATCH(BindImageTexture) WATCH(BindBufferBase) WATCH(BindBufferRange)     \
-        WATCH(BindBuffer) WATCH(BindFramebuffer) WATCH(BindVertexArray) WATCH(VertexArrayVertexBuffer)                 \
-            WATCH(VertexArrayElementBuffer) WATCH(CreateTextures) WATCH(TextureStorage2D) WATCH(TextureStorage3D)      \
-                WATCH(TextureView) WATCH(DeleteTextures) WATCH(CreateBuffers) WATCH(DeleteBuffers)                     \
-                    WATCH(NamedFramebufferTexture) WATCH(NamedFramebufferTextureLayer) WATCH(DeleteFramebuffers)       \
-                        WATCH(ObjectLabel) WATCH(PushDebugGroup) WATCH(PopDebugGroup) WATCH(MemoryBarrier)             \
-                            WATCH(DispatchCompute) WATCH(DispatchComputeIndirect) WATCH(DrawArraysInstanced)           \
-                                WATCH(DrawArraysIndirect) WATCH(DrawElementsInstancedBaseInstance)                     \
-                                    WATCH(CopyImageSubData) WATCH(CopyNamedBufferSubData) WATCH(ClearTexImage)         \
-                                        WATCH(ClearNamedBufferData) WATCH(GetTextureImage) WATCH(GetTextureSubImage)   \
-                                            WATCH(GetNamedBufferSubData) WATCH(NamedBufferSubData)                     \
-                                                WATCH(TextureSubImage2D) WATCH(TextureSubImage3D)                      \
-                                                    WATCH(MapNamedBufferRange)
+    WATCH(LinkProgram)                                                                                                 \
+    WATCH(BindTextureUnit) WATCH(BindImageTexture) WATCH(BindBufferBase) WATCH(BindBufferRange) WATCH(BindBuffer)      \
+        WATCH(BindFramebuffer) WATCH(BindVertexArray) WATCH(VertexArrayVertexBuffer) WATCH(VertexArrayElementBuffer)   \
+            WATCH(CreateTextures) WATCH(TextureStorage2D) WATCH(TextureStorage3D) WATCH(TextureView)                   \
+                WATCH(DeleteTextures) WATCH(CreateBuffers) WATCH(DeleteBuffers) WATCH(NamedFramebufferTexture)         \
+                    WATCH(NamedFramebufferTextureLayer) WATCH(DeleteFramebuffers) WATCH(ObjectLabel)                   \
+                        WATCH(PushDebugGroup) WATCH(PopDebugGroup) WATCH(MemoryBarrier) WATCH(DispatchCompute)         \
+                            WATCH(DispatchComputeIndirect) WATCH(DrawArraysInstanced) WATCH(DrawArraysIndirect)        \
+                                WATCH(DrawElementsInstancedBaseInstance) WATCH(CopyImageSubData)                       \
+                                    WATCH(CopyNamedBufferSubData) WATCH(ClearTexImage) WATCH(ClearNamedBufferData)     \
+                                        WATCH(GetTextureImage) WATCH(GetTextureSubImage) WATCH(GetNamedBufferSubData)  \
+                                            WATCH(NamedBufferSubData) WATCH(TextureSubImage2D)                         \
+                                                WATCH(TextureSubImage3D) WATCH(MapNamedBufferRange)
 
 namespace bounce {
 

@@ -77,8 +77,8 @@ class PassContext {
     /// The value of a constant announced by PassDescription::constant, for the next dispatch or draw.
     void set(const std::string& name, const ParameterValue& value);
 
-    /// Images and samplers of that slot see mip `mip` of its texture alone, for the next dispatches (for passes that walk
-    /// a mip chain themselves).
+    /// Images and samplers of that slot see mip `mip` of its texture alone, for the next dispatches (for passes that
+    /// walk a mip chain themselves).
     void bind_mip(const std::string& slot, int mip);
 
     /// At least so many invocations (rounded up to whole groups).

@@ -28,7 +28,7 @@ uint64_t NanCheck::count(const GpuTexture& texture) {
     glm::ivec3 local = program.interface().local_size;
     glDispatchCompute(GLuint((desc.size.x + local.x - 1) / local.x), GLuint((desc.size.y + local.y - 1) / local.y),
                       GLuint(desc.size.z));
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT); // read here, counted in anew
     uint32_t count = 0;
     counter_.read(0, 4, &count);
     return count;
