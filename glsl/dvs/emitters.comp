@@ -1,5 +1,6 @@
 // Adds to the light that voxels send on what emissive surfaces send to them, by shadow rays toward points of these, drawn
 // by power: V_r += ρ·E/π, on each side of a voxel. Cones would find small emitters by luck.
+#define WITHOUT_LIGHTS
 #include "dvs/emitter_shadow.glsl"
 #include "lib/material_model.glsl"
 #include "dvs/list.glsl"

@@ -4,7 +4,9 @@
 #define SCENE_DRAWS
 #define SCENE_MATERIALS
 #define SCENE_GEOMETRY
-#define SCENE_LIGHTS // for those who include this: lib/scene.glsl is read once
+#ifndef WITHOUT_LIGHTS // of whom a storage block less is asked
+#define SCENE_LIGHTS   // for those who include this: lib/scene.glsl is read once
+#endif
 #include "lib/scene.glsl"
 #include "lib/scene_textures.glsl"
 #include "lib/coverage.glsl"

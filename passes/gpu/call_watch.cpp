@@ -9,24 +9,20 @@
 #include <memory>
 
 // Each watched function: the driver's own is kept as real_NAME, and a lambda takes its place in glad's table.
-#define BOUNCE_WATCHED(WATCH)                                                                                          \
-    WATCH(UseProgram)                                                                                                  \
-    WATCH(DeleteProgram)                                                                                               \
-    WATCH(ShaderSource)                                                                                                \
-    WATCH(AttachShader)                                                                                                \
-    WATCH(LinkProgram)                                                                                                 \
-    WATCH(BindTextureUnit) WATCH(BindImageTexture) WATCH(BindBufferBase) WATCH(BindBufferRange) WATCH(BindBuffer)      \
-        WATCH(BindFramebuffer) WATCH(BindVertexArray) WATCH(VertexArrayVertexBuffer) WATCH(VertexArrayElementBuffer)   \
-            WATCH(CreateTextures) WATCH(TextureStorage2D) WATCH(TextureStorage3D) WATCH(TextureView)                   \
-                WATCH(DeleteTextures) WATCH(CreateBuffers) WATCH(DeleteBuffers) WATCH(NamedFramebufferTexture)         \
-                    WATCH(NamedFramebufferTextureLayer) WATCH(DeleteFramebuffers) WATCH(ObjectLabel)                   \
-                        WATCH(PushDebugGroup) WATCH(PopDebugGroup) WATCH(MemoryBarrier) WATCH(DispatchCompute)         \
-                            WATCH(DispatchComputeIndirect) WATCH(DrawArraysInstanced) WATCH(DrawArraysIndirect)        \
-                                WATCH(DrawElementsInstancedBaseInstance) WATCH(CopyImageSubData)                       \
-                                    WATCH(CopyNamedBufferSubData) WATCH(ClearTexImage) WATCH(ClearNamedBufferData)     \
-                                        WATCH(GetTextureImage) WATCH(GetTextureSubImage) WATCH(GetNamedBufferSubData)  \
-                                            WATCH(NamedBufferSubData) WATCH(TextureSubImage2D)                         \
-                                                WATCH(TextureSubImage3D) WATCH(MapNamedBufferRange)
+// clang-format off
+#define BOUNCE_WATCHED(WATCH) \
+    WATCH(UseProgram) WATCH(DeleteProgram) WATCH(ShaderSource) WATCH(AttachShader) WATCH(LinkProgram) \
+    WATCH(BindTextureUnit) WATCH(BindImageTexture) WATCH(BindBufferBase) WATCH(BindBufferRange) WATCH(BindBuffer) \
+    WATCH(BindFramebuffer) WATCH(BindVertexArray) WATCH(VertexArrayVertexBuffer) WATCH(VertexArrayElementBuffer) \
+    WATCH(CreateTextures) WATCH(TextureStorage2D) WATCH(TextureStorage3D) WATCH(TextureView) WATCH(DeleteTextures) \
+    WATCH(CreateBuffers) WATCH(DeleteBuffers) WATCH(NamedFramebufferTexture) WATCH(NamedFramebufferTextureLayer) \
+    WATCH(DeleteFramebuffers) WATCH(ObjectLabel) WATCH(PushDebugGroup) WATCH(PopDebugGroup) WATCH(MemoryBarrier) \
+    WATCH(DispatchCompute) WATCH(DispatchComputeIndirect) WATCH(DrawArraysInstanced) WATCH(DrawArraysIndirect) \
+    WATCH(DrawElementsInstancedBaseInstance) WATCH(CopyImageSubData) WATCH(CopyNamedBufferSubData) \
+    WATCH(ClearTexImage) WATCH(ClearNamedBufferData) WATCH(GetTextureImage) WATCH(GetTextureSubImage) \
+    WATCH(GetNamedBufferSubData) WATCH(NamedBufferSubData) WATCH(TextureSubImage2D) WATCH(TextureSubImage3D) \
+    WATCH(MapNamedBufferRange)
+// clang-format on
 
 namespace bounce {
 
