@@ -21,6 +21,7 @@ void main() {
         float occupied = 0.0;
         for (int i = 0; i < 8; ++i) {
             children[i] = texelFetch(dvs_filtered, 2 * voxel + ivec3(i & 1, (i >> 1) & 1, i >> 2), 0);
+            children[i].a = min(children[i].a, 1.0); // what lies above is no occupancy (dvs/emitters.comp)
             occupied += children[i].a;
         }
         if (occupied <= 0.0) continue;

@@ -1,5 +1,6 @@
 // Adds to the light that voxels send on what emissive surfaces send to them, by shadow rays toward points of these, drawn
-// by power: V_r += ρ·E/π, on each side of a voxel. Cones would find small emitters by luck.
+// by power: V_r += ρ·E/π, on each side of a voxel. Cones would find small emitters by luck. a: 1 (occupied), and the share
+// of that in the light that the voxel scatters, for walks, which bring the lights' own (dvs/walked_cone.glsl).
 #define WITHOUT_LIGHTS
 #include "dvs/emitter_shadow.glsl"
 #include "lib/material_model.glsl"
@@ -9,6 +10,7 @@
 layout(local_size_x = 64) in;
 
 uniform sampler3D voxels_albedo;
+uniform sampler3D voxels_emission; //! optional
 layout(FORMAT_dvs_radiance) uniform image3D dvs_radiance; // each invocation reads and writes its own voxel
 
 uniform int points = 2; //! [1, 64] shadow rays per side of a voxel
@@ -43,8 +45,10 @@ void add_to(ivec3 voxel, int layer, vec3 n, int size) {
     uint side = hash_combine(uint(voxel.x | (voxel.y << 10) | (voxel.z << 20)), uint(layer));
     vec3 added = emitters_at(centre, n, side) * texelFetch(voxels_albedo, voxel, 0).rgb * mean_diffuse_share();
     ivec3 at = voxel + ivec3(0, 0, layer * size);
-    vec4 there = imageLoad(dvs_radiance, at);
-    imageStore(dvs_radiance, at, vec4(min(there.rgb + added, vec3(65504.0)), there.a));
+    vec3 direct = imageLoad(dvs_radiance, at).rgb, emitted = texelFetch(voxels_emission, voxel, 0).rgb;
+    float by_lights = dot(max(direct - emitted, vec3(0.0)), vec3(1.0)), by_emitters = dot(added, vec3(1.0));
+    float share = by_emitters > 0.0 ? by_emitters / (by_lights + by_emitters) : 0.0;
+    imageStore(dvs_radiance, at, vec4(min(direct + added, vec3(65504.0)), 1.0 + share));
 }
 
 void main() {

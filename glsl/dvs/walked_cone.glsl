@@ -17,7 +17,15 @@ Blocker find_blocker(VoxelGrid grid, vec3 apex, vec3 direction, float from) {
 
 // What a voxel's side sends on but for what the lights' own light makes it send.
 vec3 colour_without_lights(ivec3 voxel, bool front) {
-    vec3 colour = max(colour_of_side(dvs_base, voxel, front) - colour_of_side(dvs_radiance, voxel, front), vec3(0.0));
+    ivec3 size = textureSize(dvs_radiance, 0);
+    vec4 direct = texelFetch(dvs_radiance, voxel + ivec3(0, 0, !front && size.z > size.x ? size.x : 0), 0);
+    vec3 colour = max(colour_of_side(dvs_base, voxel, front) - direct.rgb, vec3(0.0)), scattered = direct.rgb;
+#if emitters_apart
+#ifdef HAS_voxels_emission
+    scattered = max(scattered - VOXEL_EMISSION(voxel), vec3(0.0));
+#endif
+#endif
+    colour += scattered * max(direct.a - 1.0, 0.0); // from emitters, which no map shows
 #if !emitters_apart
 #ifdef HAS_voxels_emission
     colour += texelFetch(voxels_emission, voxel, 0).rgb;

@@ -79,6 +79,8 @@ void Graph::run_pass(size_t index, int from, int to) {
     const PlanPass& pass = plan_.passes[index];
     bool first = from == pass.repeat_from, last = to >= pass.repeat_to;
     if (!invalidation_.runs(index)) {
+        // Whoever comes after it counts on its barrier.
+        if (pass.barriers) glMemoryBarrier(pass.barriers);
         if (first) timings_.skip(pass.id);
         return;
     }

@@ -120,7 +120,7 @@ TEST_F(MaterialModels, GpuAndCpuAgree) {
             }
             glUseProgram(program.id());
             glDispatchCompute(k_cases / 64, 1, 1);
-            glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+            glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
             const std::vector<Answer> answers = output.read_all<Answer>();
             glUseProgram(0);
             double worst = 0;
