@@ -78,8 +78,10 @@ std::vector<MemoryUse> beyond_last_draw(const std::vector<MemoryUse>& uses) {
     const std::vector<MemoryUse>& last = g_watch->last_draw;
     std::vector<MemoryUse> beyond = uses;
     if (g_watch->last_program == g_watch->state.program && stores(uses) == stores(last))
-        std::erase_if(beyond,
-                      [&](const MemoryUse& use) { return std::find(last.begin(), last.end(), use) != last.end(); });
+        std::erase_if(beyond, [&](const MemoryUse& use) {
+            const bool target = use.writes && !use.stores(); // which a texture of this draw may be
+            return !target && std::find(last.begin(), last.end(), use) != last.end();
+        });
     return beyond;
 }
 

@@ -1,6 +1,6 @@
 // Every graph of the tree has the memory barriers that it needs; and each that is taken away is missed, or told to be
 // one that no command needed.
-#include "core/paths.h"
+#include "core/asset_files.h"
 #include "support/stale_fixture.h"
 
 #include <algorithm>
@@ -26,14 +26,6 @@ class Hazards : public StaleTest, public testing::WithParamInterface<std::string
         return check.hazards().size();
     }
 };
-
-std::vector<std::string> graph_names() {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(assets_folder() / "graphs"))
-        if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-    std::sort(names.begin(), names.end());
-    return names;
-}
 
 } // namespace
 
@@ -65,7 +57,7 @@ TEST_P(Hazards, EveryBarrierIsThereAndIsMissedWithoutIt) {
                       << (barrier.used ? " (doubled)" : "") << "\n";
 }
 
-INSTANTIATE_TEST_SUITE_P(Graphs, Hazards, testing::ValuesIn(graph_names()), [](auto& of) {
+INSTANTIATE_TEST_SUITE_P(Graphs, Hazards, testing::ValuesIn(asset_names("graphs")), [](auto& of) {
     std::string name = of.param;
     std::replace_if(
         name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');

@@ -2,6 +2,7 @@
 // to the scene's triangles, the gather against a sum over the lights.
 #include "ism/vpl.h"
 #include "lrsm/rsm_fixture.h"
+#include "support/start_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,17 +32,7 @@ std::vector<Light> lamp() {
 class Ism : public SceneGraphTest {
   protected:
     void make(const std::string& base, Sets sets, glm::vec3 light = glm::vec3(1)) {
-        shader("test/start.comp", R"(#include "surface/start.glsl"
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(FORMAT_test_start) writeonly uniform image2D test_start;
-void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    StartPoint start;
-    if (any(greaterThanEqual(pixel, resolution))) return;
-    bool there = start_at(pixel, start);
-    imageStore(test_start, pixel, there ? vec4(start.position, 1.0) : vec4(0.0));
-}
-)");
+        shader("test/start.comp", k_start_shader);
         shader("test/distances.comp", R"(layout(local_size_x = 8, local_size_y = 8) in;
 uniform usampler2D ism_atlas;
 layout(FORMAT_test_distances) writeonly uniform image2D test_distances;
