@@ -103,6 +103,7 @@ TEST_F(Leak, OfASealedRoomAgainstTheThicknessOfItsWalls) {
     // As published more light leaks in than an open wall gives (4.0 at one voxel): it is told, and no limit holds.
     const Variant variants[] = {
         {"lrsm (published)", "lrsm", {}, 1e9},
+        {"lrsm_tuned", "lrsm_tuned", {}, 0.03},
         {"lrsm_tuned, layers", "lrsm_tuned", {{"gather.hit_lookup", "layers"}}, 0.03},
         {"lrsm_tuned, layers, thin cones",
          "lrsm_tuned",
