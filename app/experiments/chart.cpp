@@ -5,11 +5,11 @@
 #include "core/input_file.h"
 #include "core/json_text.h"
 #include "core/limits.h"
+#include "core/text.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
-#include <map>
 #include <set>
 
 namespace bounce {
@@ -45,20 +45,23 @@ std::vector<ChartPoint> load_points(const fs::path& folder) {
     return points;
 }
 
-/// Points that were measured earlier, by the name of their task: to tell why one has to be measured again.
-static std::map<std::string, const ChartPoint*> by_task(const std::vector<ChartPoint>& points) {
-    std::map<std::string, const ChartPoint*> newest;
+/// The point of the same task that was measured with what is nearest to this content, the newest of several; null when
+/// there is none. It tells why a point has to be measured again.
+static const ChartPoint* nearest_point(const std::vector<ChartPoint>& points, const PointTask& task,
+                                       const PointContent& content) {
+    const ChartPoint* nearest = nullptr;
     for (const ChartPoint& point : points) {
-        const ChartPoint*& known = newest[point.task.name()];
-        if (!known || known->measured < point.measured) known = &point;
+        if (point.task.name() != task.name()) continue;
+        const auto order = [&](const ChartPoint& p) { return -int(content_differences(p.content, content).size()); };
+        if (!nearest || std::pair(order(*nearest), nearest->measured) < std::pair(order(point), point.measured))
+            nearest = &point;
     }
-    return newest;
+    return nearest;
 }
 
 void run_chart(const ChartPlan& plan, const std::function<void(const std::string&)>& say) {
     make_folder(plan.folder / "points");
     const std::vector<ChartPoint> found = load_points(plan.folder);
-    const std::map<std::string, const ChartPoint*> earlier = by_task(found);
     ErrorList errors;
     ContentReader contents;
     std::set<std::string> wanted;
@@ -80,8 +83,8 @@ void run_chart(const ChartPlan& plan, const std::function<void(const std::string
                 tell("there already");
                 continue;
             }
-            if (const auto old = earlier.find(task.name()); old != earlier.end() && plan.resume)
-                tell("measured again; changed since: " + content_difference(old->second->content, content));
+            if (const ChartPoint* old = plan.resume ? nearest_point(found, task, content) : nullptr)
+                tell("measured again; changed since: " + join(content_differences(old->content, content), ", "));
             const ChartPoint point = measure_point(task, content, say);
             write_file_atomically(path, point_to_json(point));
             tell(fmt::format("{:.3g} ms, {}", point.total_ms, error_summary(point.same_transport, point.absolute())));

@@ -73,8 +73,8 @@ static std::vector<std::string> changed_shaders(const PointContent& a, const Poi
     return changed;
 }
 
-std::string content_difference(const PointContent& before, const PointContent& now) {
-    if (before.commit.empty()) return "unknown, because the point does not say what it was measured with";
+std::vector<std::string> content_differences(const PointContent& before, const PointContent& now) {
+    if (before.commit.empty()) return {"unknown, because the point does not say what it was measured with"};
     std::vector<std::string> differences;
     if (before.commit != now.commit)
         differences.push_back(fmt::format("the program ({}, now {})", before.commit, now.commit));
@@ -84,7 +84,7 @@ std::string content_difference(const PointContent& before, const PointContent& n
         differences.push_back("the shaders of " + join(changed, ", "));
     else if (before.shaders != now.shaders && differences.empty())
         differences.push_back("which passes run");
-    return join(differences, ", ");
+    return differences;
 }
 
 /// Why the point cannot stand beside the other; "" when it can.

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace bounce {
 
@@ -27,9 +28,8 @@ class ContentReader {
     std::map<std::string, std::pair<SceneFacts, glm::ivec2>> facts_;
 };
 
-/// Why two contents are not the same, in words ("the program (1a2b, now 3c4d), the shaders of 'direct'"); "" when they
-/// are.
-std::string content_difference(const PointContent& before, const PointContent& now);
+/// What is not the same in two contents, in words ("the program (1a2b, now 3c4d)", "the shaders of 'direct'").
+std::vector<std::string> content_differences(const PointContent& before, const PointContent& now);
 
 /// Points that may stand in one chart: those that agree with the newest in program, and in the text of a graph and in
 /// the content of a shot where they name the same. `left_out` gets a line for each of the others, which says why.
