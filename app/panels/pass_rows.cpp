@@ -1,6 +1,7 @@
 #include "app/panels/pass_rows.h"
 
 #include "core/text.h"
+#include "gpu/barrier.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/paths.h"
+#include "gpu/barrier.h"
 
 #include <algorithm>
 #include <array>
@@ -134,7 +135,7 @@ void TextureView::find_range(const GpuTexture& source, const ViewerSettings& set
     const Program& finder = program("app/texture_range.comp", source.desc());
     bind_source(finder, source, settings);
     dispatch(finder, mip_size(source.desc(), settings.mip));
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    memory_barrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 const GpuTexture& TextureView::draw(const GpuTexture& source, const ViewerSettings& wanted, float scale) {
@@ -146,7 +147,7 @@ const GpuTexture& TextureView::draw(const GpuTexture& source, const ViewerSettin
         picture_ = GpuTexture(desc, "texture view");
         glTextureParameteri(picture_.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     }
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    memory_barrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     find_range(source, settings);
     const Program& viewer = program("app/texture_view.comp", source.desc());
     bind_source(viewer, source, settings);
@@ -155,7 +156,7 @@ const GpuTexture& TextureView::draw(const GpuTexture& source, const ViewerSettin
     set_constant(viewer, "mark_non_finite", int(settings.mark_non_finite));
     glBindImageTexture(0, picture_.id(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA8);
     dispatch(viewer, size);
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    memory_barrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     glBindSampler(0, 0);
     glUseProgram(0);
     return picture_;

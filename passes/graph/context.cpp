@@ -1,6 +1,7 @@
 #include "graph/context.h"
 
 #include "core/error.h"
+#include "gpu/barrier.h"
 #include "graph/graph.h"
 #include "graph/scope.h"
 
@@ -233,9 +234,9 @@ void PassContext::dispatch(const std::string& name, glm::ivec3 threads) {
 }
 
 void PassContext::barrier() {
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
-                    GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
-                    GL_FRAMEBUFFER_BARRIER_BIT);
+    memory_barrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                   GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                   GL_FRAMEBUFFER_BARRIER_BIT);
 }
 
 void PassContext::dispatch_indirect(const std::string& name, const std::string& slot_of_counts, GLintptr offset) {

@@ -1,5 +1,7 @@
 #include "graph/counters.h"
 
+#include "gpu/barrier.h"
+
 namespace bounce {
 
 constexpr size_t k_max_pending = 3; // frames; beyond them the newest is skipped, never waited for
@@ -24,7 +26,7 @@ bool Counters::collect(const Plan& plan, const Allocations& allocations) {
     std::erase_if(spare_, [](const Buffer& buffer) { return !buffer; });
     if (!next.copy)
         next.copy = Buffer(bytes, nullptr, "counters read back", GL_DYNAMIC_STORAGE_BIT | GL_CLIENT_STORAGE_BIT);
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    memory_barrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     GLintptr at = 0;
     for (const PlanPass& pass : plan.passes) {
         for (const PlanCounter& counter : pass.counters) {

@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "core/problem.h"
+#include "gpu/barrier.h"
 #include "gpu/capabilities.h"
 #include "graph/graph.h"
 
@@ -47,12 +48,11 @@ void Graph::execute(const FrameInputs& inputs) {
     std::erase_if(broke_, [&](const auto& broken) {
         return std::none_of(plan_.passes.begin(), plan_.passes.end(), [&](auto& p) { return p.id == broken.first; });
     });
-    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT |
-                    GL_BUFFER_UPDATE_BARRIER_BIT); // the copies wait for shaders' stores
+    memory_barrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT); // the copies wait for shaders' stores
     for (int resource : invalidation_.end_frame(plan_))
         allocations_.keep_previous(resource);
     if (counters_.collect(plan_, allocations_)) ask_for_larger_buffers();
-    glMemoryBarrier(GL_ALL_BARRIER_BITS); // whoever looks at the results (panels, readback) sees them
+    memory_barrier(GL_ALL_BARRIER_BITS); // whoever looks at the results (panels, readback) sees them
     default_state();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glUseProgram(0);
@@ -69,7 +69,7 @@ void Graph::run_loop(size_t first, size_t last) {
     }
     for (int step = head.repeat_from; step < head.repeat_to; ++step) {
         // What one of them reads, or overwrites, any other may have touched in the step before.
-        if (step > head.repeat_from) glMemoryBarrier(GL_ALL_BARRIER_BITS);
+        if (step > head.repeat_from) memory_barrier(GL_ALL_BARRIER_BITS);
         for (size_t i = first; i <= last; ++i)
             run_pass(i, step, step + 1);
     }
@@ -80,7 +80,7 @@ void Graph::run_pass(size_t index, int from, int to) {
     bool first = from == pass.repeat_from, last = to >= pass.repeat_to;
     if (!invalidation_.runs(index)) {
         // Whoever comes after it counts on its barrier.
-        if (pass.barriers) glMemoryBarrier(pass.barriers);
+        if (pass.barriers) memory_barrier(pass.barriers);
         if (first) timings_.skip(pass.id);
         return;
     }
@@ -94,12 +94,12 @@ void Graph::run_pass(size_t index, int from, int to) {
         for (int resource : pass.clears)
             allocations_.clear(resource, plan_.resources[size_t(resource)].declaration.neutral);
     }
-    if (pass.barriers) glMemoryBarrier(pass.barriers);
+    if (pass.barriers) memory_barrier(pass.barriers);
     bool whole = usable;
     if (usable) {
         try {
             for (int i = from; i < to; ++i) {
-                if (i > from && pass.step_barriers) glMemoryBarrier(pass.step_barriers);
+                if (i > from && pass.step_barriers) memory_barrier(pass.step_barriers);
                 default_state();
                 PassContext context(*this, pass, invalidation_.inputs(pass.id), i);
                 node.pass->execute(context);

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/paths.h"
+#include "gpu/barrier.h"
 
 namespace bounce {
 
@@ -24,11 +25,11 @@ uint64_t NanCheck::count(const GpuTexture& texture) {
     glBindTextureUnit(0, texture.id());
     glBindSampler(0, 0);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, counter_.id());
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    memory_barrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     glm::ivec3 local = program.interface().local_size;
     glDispatchCompute(GLuint((desc.size.x + local.x - 1) / local.x), GLuint((desc.size.y + local.y - 1) / local.y),
                       GLuint(desc.size.z));
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT); // read here, counted in anew
+    memory_barrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT); // read here, counted in anew
     uint32_t count = 0;
     counter_.read(0, 4, &count);
     return count;

@@ -73,9 +73,6 @@ struct Plan {
     std::vector<std::string> resource_names() const;
 };
 
-/// "GL_TEXTURE_FETCH_BARRIER_BIT|…" without the affixes: "texture_fetch|shader_image_access".
-std::string barrier_text(GLbitfield bits);
-
 /// "width", "height", "depth", "mips" or "count" of a resource.
 std::optional<double> side_of(const PlanResource& resource, const std::string& side);
 /// Fills in the barriers of passes and of their steps, from what each reads and writes.

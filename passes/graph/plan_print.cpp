@@ -1,25 +1,11 @@
 // Prints a plan as text and as Graphviz.
 #include "core/text.h"
+#include "gpu/barrier.h"
 #include "graph/model.h"
 
 #include <fmt/format.h>
 
 namespace bounce {
-
-std::string barrier_text(GLbitfield bits) {
-    static const std::pair<GLbitfield, const char*> names[] = {
-        {GL_TEXTURE_FETCH_BARRIER_BIT, "texture_fetch"},
-        {GL_SHADER_IMAGE_ACCESS_BARRIER_BIT, "shader_image_access"},
-        {GL_SHADER_STORAGE_BARRIER_BIT, "shader_storage"},
-        {GL_FRAMEBUFFER_BARRIER_BIT, "framebuffer"},
-        {GL_COMMAND_BARRIER_BIT, "command"},
-    };
-    std::vector<std::string> set;
-    for (const auto& [bit, name] : names) {
-        if (bits & bit) set.push_back(name);
-    }
-    return join(set, "|");
-}
 
 static std::string shape_text(const PlanResource& resource) {
     const ResourceDeclaration& d = resource.declaration;

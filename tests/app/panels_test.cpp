@@ -5,6 +5,7 @@
 #include "app/panels/viewer_settings.h"
 #include "app/ui/texel.h"
 #include "app/ui/texture_view.h"
+#include "gpu/barrier.h"
 
 namespace bounce {
 namespace {

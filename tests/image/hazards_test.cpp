@@ -1,6 +1,7 @@
 // Every graph of the tree has the memory barriers that it needs; and each that is taken away is missed, or told to be
 // one that no command needed.
 #include "core/asset_files.h"
+#include "gpu/barrier.h"
 #include "support/stale_fixture.h"
 
 #include <algorithm>

@@ -26,6 +26,11 @@ class Layout(unittest.TestCase):
                     long.append(f"{path}: {lines} lines, more than {LONGEST}: is it one idea?")
         self.assertFalse(long, "\n" + "\n".join(long))
 
+    def test_barriers_are_placed_by_one_function(self):
+        calls = [path.as_posix() for path in tree.files() if path.parts[0] in ("app", "passes") and path.suffix in CODE
+                 and re.search(r"\bglMemoryBarrier(ByRegion)?\(", (tree.ROOT / path).read_text(encoding="utf-8"))]
+        self.assertEqual(calls, ["passes/gpu/barrier.cpp"])
+
     def test_a_type_is_defined_in_one_header(self):
         """Two types of one name in one program break the one-definition rule: the linker keeps one destructor for both, and says nothing."""
         places = collections.defaultdict(set)
