@@ -69,6 +69,7 @@ int main(int argc, char** argv) {
         // What is printed may be the result (--json): a full disk behind it is an error as behind any other file.
         if (const std::string problem = output_problem(); !problem.empty())
             throw Error("cannot write to standard output: " + problem);
+        if (calls_are_watched()) spdlog::info("{}", hazard_check().barrier_report());
         if (calls_are_watched() && !hazard_check().hazards().empty())
             throw Error(fmt::format("{} hazards were found", hazard_check().hazards().size()));
         return code;

@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 static const char* const k_shader = R"(// What this pass computes, in one sentence.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(FORMAT_out_radiance) uniform image2D out_radiance;  // read and written: the picture, linear, before the tone map
+// The picture, linear, before the tone map.
+layout(FORMAT_out_radiance) uniform image2D out_radiance; //! ordered: each invocation reads and writes its own pixel
 
 uniform float strength = 1.0;               //! [0, 2] how much of the tint is applied
 uniform vec3 tint = vec3(1.0, 0.8, 0.6);    //! what the picture is multiplied by

@@ -57,6 +57,44 @@ void draw_choice(PanelContext& context) {
     if (ImGui::Checkbox("find NaN", &context.session.graph().check_nan)) context.ui.redraw();
     note_widget("graph.check_nan");
     show_tooltip("Looks at everything that a pass writes for values that are not finite. Slow.");
+    ImGui::SameLine();
+    bool watched = calls_are_watched();
+    ImGui::BeginDisabled(!context.ui.make_gpu_again);
+    if (ImGui::Checkbox("find hazards", &watched)) {
+        context.ui.window.ask([&ui = context.ui, watched] {
+            want_call_watch(watched);
+            ui.make_gpu_again();
+        });
+    }
+    ImGui::EndDisabled();
+    note_widget("graph.check_hazards");
+    show_tooltip("Looks for memory barriers that are missing between passes, which only a GPU would show. The window "
+                 "is made again.");
+}
+
+/// What a program's own text says, while calls are watched.
+void draw_order_problems(const Graph& graph) {
+    for (const PlanPass& pass : graph.plan().passes) {
+        for (const auto& program : graph.model().nodes()[size_t(pass.node)]->programs) {
+            for (const std::string& problem : program->order_problems()) {
+                show_wrapped(problem, k_warning_colour);
+                note_widget("graph.order_problem");
+            }
+        }
+    }
+}
+
+void draw_hazards(const Graph& graph) {
+    if (!calls_are_watched()) return;
+    const std::vector<std::string>& hazards = hazard_check().hazards();
+    ImGui::TextDisabled("%zu hazards", hazards.size());
+    note_widget("graph.hazards");
+    if (ImGui::IsItemHovered())
+        show_tooltip("Commands that need a memory barrier which is missing.\n" + hazard_check().barrier_report());
+    const size_t shown = std::min<size_t>(hazards.size(), 5);
+    for (size_t i = hazards.size() - shown; i < hazards.size(); ++i)
+        show_wrapped(hazards[i], k_error_colour);
+    draw_order_problems(graph);
 }
 
 void draw_problems(const Graph& graph) {
@@ -65,14 +103,6 @@ void draw_problems(const Graph& graph) {
         show_wrapped(problem.error.text(), k_error_colour);
         note_widget("graph.problem");
     }
-    if (!calls_are_watched()) return;
-    const std::vector<std::string>& hazards = hazard_check().hazards();
-    ImGui::TextDisabled("%zu hazards", hazards.size());
-    note_widget("graph.hazards");
-    show_tooltip("Commands that need a memory barrier which is missing (--check-hazards).");
-    const size_t shown = std::min<size_t>(hazards.size(), 5);
-    for (size_t i = hazards.size() - shown; i < hazards.size(); ++i)
-        show_wrapped(hazards[i], k_error_colour);
 }
 
 void switch_passes(Session& session, UiState& ui, const std::vector<std::string>& ids, bool on) {
@@ -233,6 +263,7 @@ void draw_graph_panel(PanelContext& context) {
     const Graph& graph = context.session.graph();
     draw_choice(context);
     draw_problems(graph);
+    draw_hazards(graph);
     double slowest = 0;
     for (const PlanPass& pass : graph.plan().passes)
         slowest = std::max(slowest, graph.timing(pass.id).median);

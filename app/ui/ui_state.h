@@ -4,6 +4,7 @@
 #include "app/ui/window_state.h"
 #include "core/parameters.h"
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
 #include <string>
@@ -67,6 +68,9 @@ struct UiState {
     std::vector<float> frame_ms; ///< CPU time of the last frames, newest last
     std::string notice;          ///< one line for the status bar
     bool notice_is_error = false;
+
+    /// Makes the context and all that is on the GPU again, between two frames; empty where there is no window.
+    std::function<void()> make_gpu_again;
 
     std::shared_ptr<LiveComparison> comparison; ///< made when its panel is first opened
     std::shared_ptr<ConesState> cones;          ///< likewise

@@ -47,6 +47,7 @@ class ViewerApp {
     void render();
     void tell_problems();
     void recover_from_reset();
+    void make_gpu_again();
     bool finished() const;
 
     // viewer_draw.cpp

@@ -37,6 +37,7 @@ void on_signal(int) {
 void ViewerApp::run() {
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
+    ui_.make_gpu_again = [this] { make_gpu_again(); };
     ui_.redraw();
     while (!window_->should_close() && !asked_to_quit && !finished()) {
         wait();
@@ -212,6 +213,11 @@ void ViewerApp::tell_problems() {
 void ViewerApp::recover_from_reset() {
     reset_simulated_ = reset_simulated_ || rendered_ == options_.simulate_reset;
     spdlog::warn("the GPU was reset: the window and everything on the GPU are made again");
+    make_gpu_again();
+    ui_.say("the GPU was reset, and everything on it was made again", true);
+}
+
+void ViewerApp::make_gpu_again() {
     session_->release_gpu();
     viewport_.release_gpu();
     if (ui_.comparison) ui_.comparison->release_gpu();
@@ -219,7 +225,6 @@ void ViewerApp::recover_from_reset() {
     window_->make_again();
     make_interface();
     session_->restore_gpu();
-    ui_.say("the GPU was reset, and everything on it was made again", true);
     ui_.redraw();
     gui_frames_ = 4;
 }

@@ -7,10 +7,10 @@
 
 layout(local_size_x = 64) in;
 
-layout(r32ui) uniform uimage3D voxels_place;
-layout(r8ui) uniform uimage3D voxels_flags;
-layout(r8ui) uniform uimage3D voxels_bricks;
-layout(std430) buffer voxels_sums { uint sums[]; };      //! optional
+layout(r32ui) uniform uimage3D voxels_place; //! ordered: each invocation has its own brick
+layout(r8ui) uniform uimage3D voxels_flags;  //! ordered: each invocation has its own brick
+layout(r8ui) uniform uimage3D voxels_bricks; //! ordered: each invocation has its own brick
+layout(std430) writeonly buffer voxels_sums { uint sums[]; }; //! optional
 
 uniform uint kind; // k_static or k_dynamic
 uniform int averaging; // {average, last_writer, sum, gather}

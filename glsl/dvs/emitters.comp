@@ -11,7 +11,7 @@ layout(local_size_x = 64) in;
 
 uniform sampler3D voxels_albedo;
 uniform sampler3D voxels_emission; //! optional
-layout(FORMAT_dvs_radiance) uniform image3D dvs_radiance; // each invocation reads and writes its own voxel
+layout(FORMAT_dvs_radiance) uniform image3D dvs_radiance; //! ordered: each invocation has its own voxel
 
 uniform int points = 2; //! [1, 64] shadow rays per side of a voxel
 

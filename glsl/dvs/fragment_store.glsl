@@ -3,7 +3,7 @@
 // What a fragment (a triangle's piece inside a voxel) writes into its voxel (DVS, section V). mark: the triangle's number,
 // whoever comes last; add: integer sums, whose order does not matter; average: the published running mean, packed into
 // 32 bits and replaced by compare-and-swap (Crassin & Green 2012), whose order does.
-layout(r32ui) uniform uimage3D voxels_place;
+layout(r32ui) uniform uimage3D voxels_place;           //! ordered: an operation either writes or reads
 layout(r8ui) readonly uniform uimage3D voxels_flags;
 layout(r8ui) writeonly uniform uimage3D voxels_bricks; // of 4³ voxels: which were written
 layout(r32ui) uniform uimage3D voxels_packed_albedo;   //! optional

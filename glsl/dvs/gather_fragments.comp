@@ -10,7 +10,7 @@
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer voxels_triangle_bounds { vec4 bounds[]; };
-layout(std430) buffer voxels_sums { uint sums[]; };
+layout(std430) buffer voxels_sums { uint sums[]; }; //! ordered: each invocation has its own voxel
 
 uniform uint kind;
 uniform int first_box; // of 4,096 triangles

@@ -2,7 +2,7 @@
 #include "dvs/list_entries.glsl"
 
 layout(std430) buffer voxels_list { uint list[]; };
-layout(std430) buffer voxels_counts {
+layout(std430) buffer voxels_counts { //! ordered: one invocation reads what others wrote before
     uvec3 groups;       // of 64 invocations, for an indirect dispatch over the list
     uint listed;        // entries
     uint static_listed; // of them, those of static geometry

@@ -4,7 +4,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) buffer voxels_triangle_bounds { vec4 bounds[]; };
+layout(std430) buffer voxels_triangle_bounds { vec4 bounds[]; }; //! ordered: a level is written and the finer one read
 
 uniform int level;
 

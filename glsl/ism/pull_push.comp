@@ -7,7 +7,7 @@
 layout(local_size_x = 256) in;
 
 layout(std430) readonly buffer ism_vpls { Vpl vpls[]; };
-layout(FORMAT_ism_atlas) uniform uimage2D ism_atlas;
+layout(FORMAT_ism_atlas) uniform uimage2D ism_atlas; //! ordered: others are read before a barrier and none is written before it
 
 uniform int map_side = 64;           //! [8, 512] (texels) width and height of a map
 uniform int levels = 3;              //! [0, 3] of the pyramid

@@ -7,7 +7,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(std430) buffer ism_totals { uint largest[2], sums[2]; }; // of flux, of area; the largest as bits of floats ≥ 0
+// of flux, of area; the largest as bits of floats ≥ 0
+layout(std430) buffer ism_totals { uint largest[2], sums[2]; }; //! ordered: a stage either adds or reads
 layout(std430) writeonly buffer prefix_values { uint values[]; };
 
 uniform int weight_stage;

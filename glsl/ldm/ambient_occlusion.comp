@@ -11,7 +11,7 @@ uniform sampler2D gbuffer_geometric_normal;
 uniform sampler2D gbuffer_normal;
 uniform sampler2D gbuffer_depth;
 uniform int iteration, repeat_from;
-layout(FORMAT_ldm_openness) uniform image2D ldm_openness; // Σ V·cosθ so far
+layout(FORMAT_ldm_openness) uniform image2D ldm_openness; //! ordered: each invocation has its own texel // Σ V·cosθ so far
 
 uniform float d_max = 0.1; //! [1e-4, 10] (scene diagonals) occluders further away do not count for out.ambient_occlusion_dmax
 uniform int falloff = 0;   //! {none, quadratic} what lies within d_max occludes in full, or by 1 − (r/d_max)² (obscurance)

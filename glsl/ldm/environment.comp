@@ -11,7 +11,8 @@ uniform sampler2D gbuffer_geometric_normal;
 uniform sampler2D gbuffer_normal;
 uniform sampler2D gbuffer_depth;
 uniform int iteration, repeat_from;
-layout(FORMAT_ldm_sky) uniform image2D ldm_sky; // Σ V·L·cosθ so far; the last batch leaves E/π
+// Σ V·L·cosθ so far; the last batch leaves E/π
+layout(FORMAT_ldm_sky) uniform image2D ldm_sky; //! ordered: each invocation has its own texel
 
 uniform bool region_mean = false; //! averages the environment over each axis's share of the sphere
 

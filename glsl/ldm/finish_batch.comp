@@ -3,8 +3,8 @@
 
 layout(local_size_x = 1) in;
 
-layout(std430) buffer ldm_counts { uint ldm_counted[]; };
-layout(std430) buffer ldm_batches { uint fragments_of_batch[]; };
+layout(std430) buffer ldm_counts { uint ldm_counted[]; }; //! ordered: one invocation
+layout(std430) writeonly buffer ldm_batches { uint fragments_of_batch[]; };
 
 uniform int batch;
 

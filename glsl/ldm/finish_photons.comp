@@ -6,7 +6,7 @@ layout(std430) readonly buffer photons_stored { uint stored_words[]; };
 // 0 … 3: glDrawArraysIndirect (4 vertices, instances, 0, 0) · 4 … 6: groups of 256 photons · 7: photons stored
 layout(std430) writeonly buffer photons_commands { uint commands[]; };
 // 0: photons of the largest batch · 1: dropped photons · 2: photons of the frame
-layout(std430) buffer photons_counts { uint counted[]; };
+layout(std430) buffer photons_counts { uint counted[]; }; //! ordered: one invocation
 
 uniform int value_count;
 

@@ -8,9 +8,10 @@ layout(local_size_x = 64) in;
 layout(std430) readonly buffer photons_commands { uint commands[]; };
 layout(std430) readonly buffer photons_boxes { uvec2 boxes[]; };
 layout(std430) readonly buffer photons_chunks { uvec2 chunks[]; };
-layout(std430) buffer prefix_values { uint values[]; };
+layout(std430) buffer prefix_values { uint values[]; }; //! ordered: a stage either writes or reads
 layout(std430) writeonly buffer splat_lists { uint splat_list[]; };
-layout(std430) buffer splat_counts { uint counted[]; }; // 0: entries of the largest batch · 1: dropped entries
+// 0: entries of the largest batch · 1: dropped entries
+layout(std430) buffer splat_counts { uint counted[]; }; //! ordered: the first invocation alone
 
 uniform int bin_stage;   // 0: count · 1: write
 uniform int chunk_count; // that storage is made for

@@ -13,7 +13,7 @@ layout(std430) readonly buffer prefix_values { uint starts[]; };
 layout(std430) readonly buffer splat_lists { uint splat_list[]; };
 uniform sampler2D gbuffer_geometric_normal;
 uniform sampler2D gbuffer_depth;
-layout(FORMAT_photons_irradiance) uniform image2D photons_irradiance; // E/π so far
+layout(FORMAT_photons_irradiance) uniform image2D photons_irradiance; //! ordered: each invocation has its own texel // E/π so far
 
 uniform int chunk_count;
 

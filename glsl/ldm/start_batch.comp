@@ -3,8 +3,8 @@
 
 layout(local_size_x = 256) in;
 
-layout(std430) buffer ldm_lists { uint lists[]; };
-layout(std430) buffer ldm_counts { uint ldm_counted[]; };
+layout(std430) writeonly buffer ldm_lists { uint lists[]; };
+layout(std430) writeonly buffer ldm_counts { uint ldm_counted[]; };
 
 uniform int marks_from; // in ldm_counts; they go on to its end
 

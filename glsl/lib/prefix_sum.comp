@@ -3,8 +3,8 @@
 // it.
 layout(local_size_x = 256) in;
 
-layout(std430) buffer prefix_values { uint values[]; };
-layout(std430) buffer prefix_sums { uint sums[]; };
+layout(std430) buffer prefix_values { uint values[]; }; //! ordered: each invocation has its own values
+layout(std430) buffer prefix_sums { uint sums[]; };     //! ordered: a stage writes or reads them, or each has its own
 
 uniform int prefix_stage; // 0: sums of blocks · 1: prefix of the sums · 2: prefixes of the values
 uniform int prefix_count; // of the values

@@ -3,8 +3,9 @@
 // passes/graph/radix_sort.h runs it.
 layout(local_size_x = 256) in;
 
-layout(std430) buffer sort_pairs { uvec2 pairs[]; }; // key, value; two halves, from one of which pairs go to the other
-layout(std430) buffer prefix_values { uint values[]; };
+// key, value; two halves, from one of which pairs go to the other
+layout(std430) buffer sort_pairs { uvec2 pairs[]; }; //! ordered: one half is read and the other written
+layout(std430) buffer prefix_values { uint values[]; }; //! ordered: a stage either writes or reads
 
 uniform int sort_stage; // 0: count digits · 1: move pairs
 uniform int sort_count; // pairs in a half

@@ -4,8 +4,10 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(FORMAT_accumulate_picture) uniform image2D accumulate_picture; // this frame's; becomes the mean
-layout(FORMAT_accumulate_mean) uniform image2D accumulate_mean;       // a = frames so far; kept from frame to frame
+// this frame's; becomes the mean
+layout(FORMAT_accumulate_picture) uniform image2D accumulate_picture; //! ordered: each has its own pixel
+// a = frames so far; kept from frame to frame
+layout(FORMAT_accumulate_mean) uniform image2D accumulate_mean;       //! ordered: each has its own pixel
 
 uniform int max_frames = 256; //! [1, 65536] frames that the mean reaches back
 

@@ -13,7 +13,7 @@ uniform sampler2D gbuffer_motion;  //! optional // to where the surface was a fr
 layout(FORMAT_temporal_output) writeonly uniform image2D temporal_output; // the mean
 layout(FORMAT_temporal_frames) writeonly uniform image2D temporal_frames; //! neutral 1 // how many it holds
 // Of two frames in turn: the mean; then position, and in a the frames that the mean holds.
-layout(FORMAT_temporal_history) uniform image2DArray temporal_history;
+layout(FORMAT_temporal_history) uniform image2DArray temporal_history; //! ordered: layers of this frame are written and of the last one read
 layout(std430) buffer temporal_counts { uint max_frames_held, held_texels, seen_texels; };
 
 uniform int turn;             // 0 or 1: which of the two is written

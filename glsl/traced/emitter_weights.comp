@@ -14,7 +14,7 @@ struct Emitter {
     float weight;
     uint padding;
 };
-layout(std430) buffer traced_emitters { Emitter emitters[]; };
+layout(std430) buffer traced_emitters { Emitter emitters[]; }; //! ordered: each invocation has its own
 
 uniform int entries;
 

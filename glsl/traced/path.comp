@@ -12,12 +12,12 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 // Means so far; a = samples, but in out_emission: what they were taken of.
-layout(FORMAT_out_direct) uniform image2D out_direct;
-layout(FORMAT_out_emitted) uniform image2D out_emitted;
-layout(FORMAT_out_environment) uniform image2D out_environment;
-layout(FORMAT_out_indirect_diffuse) uniform image2D out_indirect_diffuse;
-layout(FORMAT_out_indirect_specular) uniform image2D out_indirect_specular;
-layout(FORMAT_out_emission) uniform image2D out_emission;
+layout(FORMAT_out_direct) uniform image2D out_direct; //! ordered: each has its own pixel
+layout(FORMAT_out_emitted) uniform image2D out_emitted; //! ordered: each has its own pixel
+layout(FORMAT_out_environment) uniform image2D out_environment; //! ordered: each has its own pixel
+layout(FORMAT_out_indirect_diffuse) uniform image2D out_indirect_diffuse; //! ordered: each has its own pixel
+layout(FORMAT_out_indirect_specular) uniform image2D out_indirect_specular; //! ordered: each has its own pixel
+layout(FORMAT_out_emission) uniform image2D out_emission; //! ordered: each has its own pixel
 
 uniform int samples = 1;        //! [1, 256] per pixel and frame
 uniform int bounces = -1;       //! [-1, 64] scattering orders after the first; -1: all

@@ -13,7 +13,7 @@ uniform sampler2D traced_gloss;
 uniform bool adds = false; //! static to what the diffuse lobe reflects
 
 #if adds
-layout(FORMAT_out_indirect_specular) uniform image2D out_indirect_specular;
+layout(FORMAT_out_indirect_specular) uniform image2D out_indirect_specular; //! ordered: each has its own pixel
 #else
 layout(FORMAT_out_indirect_specular) writeonly uniform image2D out_indirect_specular;
 #endif

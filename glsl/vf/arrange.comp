@@ -4,11 +4,11 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) buffer vf_grid { Grid grid; };
+layout(std430) buffer vf_grid { Grid grid; }; //! ordered: what is read was written by earlier passes
 layout(std430) readonly buffer vf_emitted { Proxy emitted[]; };
 layout(std430) readonly buffer sort_pairs { uvec2 pairs[]; };
 layout(std430) writeonly buffer vf_proxies { Proxy proxies[]; };
-layout(std430) buffer vf_ranges { uvec2 ranges[]; };
+layout(std430) buffer vf_ranges { uvec2 ranges[]; }; //! ordered: a stage either writes or reads
 
 uniform int entry_capacity;
 uniform int sorted_half;

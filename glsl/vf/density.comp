@@ -5,7 +5,7 @@
 layout(local_size_x = 256) in;
 
 layout(std430) readonly buffer vf_areas { float areas[]; };
-layout(std430) buffer vf_grid { Grid grid; };
+layout(std430) buffer vf_grid { Grid grid; }; //! ordered: one invocation
 
 uniform int triangle_count;
 uniform float per_face = 256.0;  //! [1, 65536] proxies on an area as large as a side of a cell that are enough

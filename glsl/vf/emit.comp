@@ -9,7 +9,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) buffer vf_grid { Grid grid; };
+layout(std430) buffer vf_grid { Grid grid; }; //! ordered: what is read was written by earlier passes
 layout(std430) readonly buffer prefix_values { uint values[]; };
 layout(std430) writeonly buffer vf_emitted { Proxy emitted[]; };
 

@@ -4,9 +4,9 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) buffer vf_grid { Grid grid; };
+layout(std430) buffer vf_grid { Grid grid; }; //! ordered: what is read was written by earlier passes
 layout(std430) readonly buffer vf_emitted { Proxy emitted[]; };
-layout(std430) buffer prefix_values { uint values[]; };
+layout(std430) buffer prefix_values { uint values[]; }; //! ordered: a stage either writes or reads
 layout(std430) writeonly buffer sort_pairs { uvec2 pairs[]; };
 
 uniform int entry_stage; // 0: count · 1: write · 2: keys that sort behind all others into what is left

@@ -6,7 +6,7 @@
 
 layout(std430) readonly buffer vf_light { ProxyLight lit[]; };
 layout(std430) readonly buffer vf_cells { Cell cells[]; };
-layout(std430) buffer vf_lists { uint lists[]; };
+layout(std430) buffer vf_lists { uint lists[]; }; //! ordered: each invocation has its own list
 layout(std430) buffer vf_counts { uint counts[]; };
 layout(std430) readonly buffer vf_sizes { ivec2 march_size; int list_capacity, filtered_capacity; };
 

@@ -1,7 +1,7 @@
 // Occlusion voxels of one bit each, without atomics: a byte holds a brick of 2×2×2 voxels, and the scene is gone through
 // eight times, once for each place in the brick. In round k a byte may only gain bit k, so whatever a concurrent reader
 // finds, old | (1 << k) is the same value: all writers of a byte write the same.
-layout(FORMAT_voxels_bricks) coherent uniform uimage3D voxels_bricks;
+layout(FORMAT_voxels_bricks) coherent uniform uimage3D voxels_bricks; //! ordered: all writers of a byte write the same
 
 uniform int iteration; // the round: x + 2·y + 4·z of the place in the brick
 

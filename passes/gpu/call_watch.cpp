@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 
 // Each watched function: the driver's own is kept as real_NAME, and a lambda takes its place in glad's table.
 // clang-format off
@@ -41,6 +42,7 @@ struct Watch {
     int overlooked = -1;
 };
 std::unique_ptr<Watch> g_watch;
+PFNGLUSEPROGRAMPROC g_ours = nullptr; ///< what stands in the table for glUseProgram while calls are watched
 
 std::string place(const char* what) {
     const CallState& state = g_watch->state;
@@ -349,8 +351,7 @@ void watch_calls() {
     g_watch->check.describe = [](const MemoryRange& range) { return g_watch->state.describe(range); };
     g_watch->check.on_hazard = [](const std::string& hazard) { spdlog::error("hazard: {}", hazard); };
     // Where the functions were not loaded anew, ours are still in the table.
-    static PFNGLUSEPROGRAMPROC ours = nullptr;
-    if (ours && glad_glUseProgram == ours) return;
+    if (g_ours && glad_glUseProgram == g_ours) return;
 #define BOUNCE_KEEP(NAME) real_##NAME = glad_gl##NAME;
     BOUNCE_WATCHED(BOUNCE_KEEP)
 #undef BOUNCE_KEEP
@@ -359,18 +360,27 @@ void watch_calls() {
     watch_objects();
     watch_commands();
     watch_transfers();
-    ours = glad_glUseProgram;
+    g_ours = glad_glUseProgram;
 }
 
-static bool g_wanted = false;
+void stop_call_watch() {
+    if (g_watch && glad_glUseProgram == g_ours) {
+#define BOUNCE_GIVE_BACK(NAME) glad_gl##NAME = real_##NAME;
+        BOUNCE_WATCHED(BOUNCE_GIVE_BACK)
+#undef BOUNCE_GIVE_BACK
+    }
+    g_watch.reset();
+}
 
-void want_call_watch() {
-    g_wanted = true;
+static std::optional<bool> g_wanted;
+
+void want_call_watch(bool wanted) {
+    g_wanted = wanted;
 }
 
 bool call_watch_is_wanted() {
     const char* asked = std::getenv("BOUNCE_CHECK_HAZARDS");
-    return g_wanted || (asked && *asked);
+    return g_wanted.value_or(asked && *asked);
 }
 
 bool calls_are_watched() {

@@ -10,8 +10,10 @@ namespace bounce {
 /// again for each later context (what was known is forgotten then). It stays until the program ends.
 void watch_calls();
 bool calls_are_watched();
-/// From now on start_context() watches, as it does with BOUNCE_CHECK_HAZARDS in the environment.
-void want_call_watch();
+/// Takes itself away again; what was found is forgotten.
+void stop_call_watch();
+/// Whether start_context() watches from now on, as it does with BOUNCE_CHECK_HAZARDS in the environment.
+void want_call_watch(bool wanted = true);
 bool call_watch_is_wanted();
 
 /// What has been found since watch_calls(). Hazards are logged as errors when they are found.

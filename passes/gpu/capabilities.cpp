@@ -68,7 +68,10 @@ void ask_mesa_for_46() {
 }
 
 Capabilities start_context() {
-    if (call_watch_is_wanted()) watch_calls();
+    if (call_watch_is_wanted())
+        watch_calls();
+    else
+        stop_call_watch();
     start_debug_messages();
     Capabilities capabilities = read_capabilities();
     if (!capabilities.missing.empty()) {

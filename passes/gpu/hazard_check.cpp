@@ -1,5 +1,7 @@
 #include "gpu/hazard_check.h"
 
+#include "core/text.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -136,6 +138,19 @@ void HazardCheck::barrier(GLbitfield bits, const std::string& place) {
         give(memory.stores, index, bits);
         give(memory.reads, index, bits);
     }
+}
+
+std::string HazardCheck::barrier_report() const {
+    std::map<std::string, bool> places; // whether one of its barriers was needed
+    for (const Barrier& barrier : barriers_)
+        places[barrier.place] |= barrier.needed != 0;
+    std::vector<std::string> unneeded;
+    for (const auto& [place, needed] : places)
+        if (!needed) unneeded.push_back(place);
+    std::string text = fmt::format("{} memory barriers at {} places", barriers_.size(), places.size());
+    if (!unneeded.empty())
+        text += fmt::format(", {} of which no command needed: {}", unneeded.size(), join(unneeded, "; "));
+    return text;
 }
 
 void HazardCheck::forget_barriers() {

@@ -48,6 +48,8 @@ class HazardCheck {
         GLbitfield used = 0;   ///< bits that some command needed, and that this barrier gave it first
     };
     const std::vector<Barrier>& barriers() const { return barriers_; }
+    /// Their number by place, and the places whose barriers no command has needed so far, which only cost time.
+    std::string barrier_report() const;
     /// Begins their list anew: what they ordered stays ordered.
     void forget_barriers();
 

@@ -2,8 +2,10 @@
 
 #include "core/digest.h"
 #include "core/log.h"
+#include "gpu/call_watch.h"
 #include "gpu/objects.h"
 #include "gpu/shader_limits.h"
+#include "gpu/shader_order.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -238,6 +240,14 @@ bool Program::build(const std::function<std::vector<std::string>(const ProgramIn
     text_digest_ = text.value();
     up_to_date_ = true;
     disabled_ = false;
+    order_problems_.clear();
+    if (calls_are_watched()) {
+        for (const ShaderSource& source : sources_)
+            for (std::string& problem : bounce::order_problems(source))
+                order_problems_.push_back(std::move(problem));
+        for (const std::string& problem : order_problems_)
+            spdlog::warn("order: {}", problem);
+    }
     return true;
 }
 

@@ -67,6 +67,8 @@ class Program {
     const std::vector<ParameterInfo>& parameters() const { return parameters_; }
     const std::vector<ShaderSlot>& slots() const { return slots_; }
     const std::vector<ShaderSource>& sources() const { return sources_; }
+    /// While calls are watched (call_watch.h): what its text says of the order of its invocations (shader_order.h).
+    const std::vector<std::string>& order_problems() const { return order_problems_; }
     const std::vector<std::filesystem::path>& stages() const { return stages_; }
     /// Takes up what an earlier build() of this same text came to, without asking the driver again.
     void recall(std::vector<ShaderError> errors);
@@ -84,6 +86,7 @@ class Program {
     std::vector<ParameterInfo> parameters_;
     std::vector<ShaderSlot> slots_;
     std::vector<ShaderError> errors_;
+    std::vector<std::string> order_problems_;
     ProgramInterface interface_;
     Defines defines_, static_values_; ///< of the last scan
     GLuint id_ = 0;

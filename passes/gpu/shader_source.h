@@ -41,6 +41,7 @@ struct ShaderSlot {
     std::string required_if;          ///< "//! optional unless EXPRESSION"
     std::string from, from_mip,
         from_layer;      ///< "//! from group.name mip iteration": its source unless the graph binds one
+    std::string ordered; ///< "//! ordered: REASON": why invocations that read and write it do not meet
     bool certain = true; ///< false inside an #if whose outcome only the compiler knows
     std::string where;   ///< "glsl/x.comp:12"
 };

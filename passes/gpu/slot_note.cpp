@@ -21,7 +21,8 @@ static std::vector<std::string> parts_of(std::string_view note) {
     int depth = 0;
     for (char c : note) {
         depth += c == '(' ? 1 : c == ')' ? -1 : 0;
-        if (c == ',' && depth == 0)
+        const bool is_reason = trim(parts.back()).starts_with("ordered:"); // which goes on to the end
+        if (c == ',' && depth == 0 && !is_reason)
             parts.emplace_back();
         else
             parts.back() += c;
@@ -70,10 +71,13 @@ void read_slot_note(std::string_view note, ShaderSlot& slot) {
             slot.neutral = read_neutral(words);
         else if (word == "from")
             read_source(part, words, slot);
+        else if (word == "ordered:" && words.size() > 1)
+            slot.ordered = trim(std::string_view(part).substr(word.size()));
         else
-            throw Error(fmt::format("invalid note '{}' of slot '{}': expected optional, neutral VALUE or from NAME{}",
-                                    shortened(part), shortened(slot.name),
-                                    did_you_mean(word, {"optional", "neutral", "from"})));
+            throw Error(fmt::format(
+                "invalid note '{}' of slot '{}': expected optional, neutral VALUE, from NAME or ordered: REASON{}",
+                shortened(part), shortened(slot.name),
+                did_you_mean(word, {"optional", "neutral", "from", "ordered:"})));
     }
 }
 

@@ -9,6 +9,8 @@
 //   optional unless EXPRESSION    the same, unless the pass's parameters say so: visibility == cones
 //   neutral V       what a reader gets when nothing makes the resource, and what a writer's resource holds when it is
 //                   cleared: one number for all channels, or four (default 0)
+//   ordered: REASON  invocations read and write it, and why none meets another ("each has its own texel"), or why that
+//                   does not matter; comes last. See shader_order.h
 //   from NAME       the resource that the slot is bound to unless the graph file binds another: that of the pass's slot
 //                   NAME if it has one, else the resource NAME. One mip or layer of it: "mip EXPRESSION", "layer
 //                   EXPRESSION"

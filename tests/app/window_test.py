@@ -333,6 +333,27 @@ class Window(ProgramTest):
         self.wait_for_exit()
         self.assertEqual(len(re.findall("state is ignored", self.said())), 1, self.said())
 
+    def test_hazards_are_looked_for_in_a_running_window(self):
+        """A person's own pass reads what its other invocations write: said once somebody asks, and on the next run no more."""
+        (self.root / "glsl/user").mkdir()
+        (self.root / "glsl/user/smear.comp").write_text(
+            "layout(local_size_x = 8, local_size_y = 8) in;\nlayout(FORMAT_out_radiance) uniform image2D out_radiance;\nvoid main() {\n"
+            "    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);\n"
+            "    imageStore(out_radiance, texel, imageLoad(out_radiance, max(texel - 1, ivec2(0))));\n}\n")
+        (self.root / "assets/graphs/smeared.json").write_text(json.dumps({"version": 1, "extends": "direct", "passes": [
+            {"before": "tonemap", "id": "smear", "type": "compute", "shader": "user/smear.comp"}]}))
+        self.open(self.shot, "--graph", "smeared", "--size", "%dx%d" % PICTURE)
+        self.assertNotIn("graph.hazards", self.state()["widgets"])
+        self.click("graph.check_hazards")
+        state = self.wait(lambda state: "graph.order_problem" in state["widgets"], "what the pass is told")
+        self.assertIn("graph.hazards", state["widgets"])
+        self.assertRegex(self.said(), r"order: .*smear\.comp:2: 'out_radiance' is read and written by invocations that nothing orders")
+        self.assertNotIn("hazard: ", self.said())
+        rendered = state["rendered"]
+        self.click("graph.check_hazards")
+        self.wait(lambda state: "graph.hazards" not in state["widgets"] and state["rendered"] > rendered, "the end of it")
+        self.assertNotIn("[error]", self.said())
+
     def test_a_gpu_reset(self):
         """The window, and all that was on the GPU, is made again; an edited value survives."""
         self.open(self.shot, *SMALL, "--set", "tonemap.exposure=1", "--size", "%dx%d" % PICTURE, "--simulate-reset", "4", "--frames", "9",

@@ -121,6 +121,7 @@ TEST(HazardCheck, TellsWhichBarriersWereNeeded) {
     EXPECT_EQ(check.barriers()[1].used, 0u);
     EXPECT_EQ(check.barriers()[2].needed, GLbitfield(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT));
     EXPECT_THAT(check.hazards(), ElementsAre(HasSubstr("overwrites"))) << "c, of what b read";
+    EXPECT_EQ(check.barrier_report(), "3 memory barriers at 3 places, 2 of which no command needed: first; second");
 }
 
 TEST(ShaderMemory, WhatDeclarationsSay) {

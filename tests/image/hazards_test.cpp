@@ -2,6 +2,7 @@
 // one that no command needed.
 #include "core/asset_files.h"
 #include "gpu/barrier.h"
+#include "gpu/shader_order.h"
 #include "support/stale_fixture.h"
 
 #include <algorithm>
@@ -56,6 +57,18 @@ TEST_P(Hazards, EveryBarrierIsThereAndIsMissedWithoutIt) {
         if (!barrier.needed)
             std::cout << "      not needed: " << barrier.place << " " << barrier_text(barrier.bits)
                       << (barrier.used ? " (doubled)" : "") << "\n";
+}
+
+TEST_P(Hazards, ShadersArgueTheOrderOfTheirInvocations) {
+    SessionOptions given = options(GetParam());
+    given.size = {16, 9};
+    Session session(given);
+    session.render(true);
+    for (const auto& node : session.graph().model().nodes())
+        for (const auto& program : node->programs)
+            for (const ShaderSource& source : program->sources())
+                for (const std::string& problem : order_problems(source))
+                    ADD_FAILURE() << node->id() << ": " << problem;
 }
 
 INSTANTIATE_TEST_SUITE_P(Graphs, Hazards, testing::ValuesIn(asset_names("graphs")), [](auto& of) {
