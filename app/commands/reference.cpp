@@ -236,6 +236,8 @@ void add_reference_command(CLI::App& app, CommandFunction& chosen) {
         ->excludes(samples);
     command->add_flag("--diffuse-only", a->settings.diffuse_only,
                       "leave out the microfacet lobe: Lambert, if the model is plain");
+    command->add_flag("--diffuse-secondary", a->settings.diffuse_secondary,
+                      "leave out the microfacet lobe behind the visible surface");
     add_material_model_option(*command, a->material_model);
     command
         ->add_option("--resource", a->resource,

@@ -36,6 +36,7 @@ class Half {
         own.rebuild = Rebuild::every_frame; // a frame that is rendered again adds its samples
         own.sets = {{"path.bounces", std::to_string(settings.bounces)},
                     {"path.microfacets", settings.diffuse_only ? "false" : "true"},
+                    {"path.glossy_secondary", settings.diffuse_secondary ? "false" : "true"},
                     {"path.roulette_depth", std::to_string(settings.roulette_depth)},
                     {"path.seed", std::to_string(2 * settings.seed + unsigned(which))},
                     {"path.samples", std::to_string(k_step)}};

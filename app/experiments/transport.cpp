@@ -21,6 +21,7 @@ ReferenceSettings transport_settings(const GraphModel& model) {
     ReferenceSettings settings;
     settings.bounces = transport.bounces;
     settings.diffuse_only = transport.diffuse_only;
+    settings.diffuse_secondary = transport.diffuse_secondary;
     if (!transport.occlusion_distance.empty()) {
         const auto distance = model.number(transport.occlusion_distance);
         if (!distance || !(*distance > 0))

@@ -20,11 +20,11 @@ static bool models_everything(const LiveComparison& comparison, const Session& s
 std::string LiveComparison::key_of(const Session& session) const {
     const Transport& transport = session.graph().model().file().transport;
     const ReferenceSettings settings = transport_settings(session.graph().model());
-    return fmt::format("{} {} {} {}x{} {} {} {} {} {}", session.options().shot, session.edits(),
+    return fmt::format("{} {} {} {}x{} {} {} {} {} {} {}", session.options().shot, session.edits(),
                        camera_json(session.camera(), session.shot().scene.space), session.size().x, session.size().y,
                        session.frame(), models_everything(*this, session) ? -1 : transport.bounces,
-                       !full_transport && transport.diffuse_only, settings.occlusion_distance,
-                       int(settings.occlusion_falloff));
+                       !full_transport && transport.diffuse_only, !full_transport && transport.diffuse_secondary,
+                       settings.occlusion_distance, int(settings.occlusion_falloff));
 }
 
 bool LiveComparison::stale(const Session& session) const {
@@ -42,6 +42,7 @@ void LiveComparison::start(const Session& session) {
     ReferenceSettings settings = transport_settings(session.graph().model());
     settings.bounces = models_everything(*this, session) ? k_unlimited_bounces : transport.bounces;
     settings.diffuse_only = !full_transport && transport.diffuse_only;
+    settings.diffuse_secondary = !full_transport && transport.diffuse_secondary;
     started_part_ = full_transport ? "out.radiance" : join(transport.parts, "+");
     started_key_ = key_of(session);
     int frame = session.frame();

@@ -22,6 +22,7 @@ layout(FORMAT_out_emission) uniform image2D out_emission; //! ordered: each has 
 uniform int samples = 1;        //! [1, 256] per pixel and frame
 uniform int bounces = -1;       //! [-1, 64] scattering orders after the first; -1: all
 uniform int roulette_depth = 3; //! [0, 64] bounces after which paths may end by chance, without bias
+uniform bool glossy_secondary = true; //! off: surfaces behind the visible one have their diffuse lobe alone
 uniform int seed = 0;           //! [0, 1000000] pictures of different seeds are independent
 
 // Which part a light's first scattering belongs to.
@@ -185,6 +186,10 @@ void main() {
         }
         if (!ends) {
             Lobes lobes = lobes_of(s, -direction);
+            if (path != k_before && !glossy_secondary) {
+                lobes.glossy = false;
+                lobes.gloss_share = 0.0;
+            }
             vec2 u = vec2(0.0), v = vec2(0.0); // at the visible surface the diffuse lobe's and the other's, else also choices
             if (path != k_before) {
                 ++depth;

@@ -196,6 +196,7 @@ Transport read_transport(const json& value, ErrorList& errors) {
     ObjectReader reader(value, "transport", errors);
     Transport transport;
     transport.diffuse_only = reader.flag("diffuse_only", false);
+    transport.diffuse_secondary = reader.flag("diffuse_secondary", false);
     if (const json* bounces = reader.get("bounces")) {
         bool whole = bounces->is_number_integer() && bounces->get<int>() >= 0;
         if (whole)

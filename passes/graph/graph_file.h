@@ -65,6 +65,7 @@ struct NodeEntry {
 struct Transport {
     int bounces = -1; ///< scattering orders after direct; −1 = all
     bool diffuse_only = false;
+    bool diffuse_secondary = false;                 ///< surfaces behind the visible one have their diffuse lobe alone
     std::vector<std::string> parts{"out.radiance"}; ///< the parts that it makes; their sum is what is compared
     /// Parameters ("id.name") that say what out.ambient_occlusion_dmax means: d_max as a share of the scene's diagonal,
     /// and a choice of k_occlusion_falloffs; "" = the reference's defaults.

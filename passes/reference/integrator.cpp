@@ -35,11 +35,11 @@ struct Integrator::Lobes {
     glm::vec3 limit{1}; ///< of the diffuse lobe, seen from v
     Basis basis;
 
-    Lobes(const Surface& surface, const glm::vec3& to_viewer, const TraceScene& scene)
+    Lobes(const Surface& surface, const glm::vec3& to_viewer, const TraceScene& scene, bool microfacets)
         : n(surface.shading), v(to_viewer), geometric(surface.geometric),
           lambert(brdf_diffuse(surface.base_colour, surface.metallic)),
           f0(brdf_f0(surface.base_colour, surface.metallic)), nv(glm::dot(n, v)), alpha(brdf_alpha(surface.roughness)),
-          roughness(surface.roughness), glossy(!scene.diffuse_only && nv > 0), model(scene.material_model), basis(n) {
+          roughness(surface.roughness), glossy(microfacets && nv > 0), model(scene.material_model), basis(n) {
         if (model == MaterialModel::gltf && nv > 0) limit = diffuse_limit(k_pi * lambert, f0, roughness, nv);
     }
 
@@ -214,7 +214,7 @@ bool Integrator::extend(Path& path, const Surface& surface) {
     const glm::vec2 u = path.sampler.next_pair(), chances = path.sampler.next_pair();
     const float choice = chances.x, survival = chances.y;
 
-    const Lobes lobes(surface, -path.direction, scene_);
+    const Lobes lobes(surface, -path.direction, scene_, !scene_.diffuse_only && !scene_.settings.diffuse_secondary);
     float gloss_share = 0;
     if (lobes.glossy) {
         // Schlick at the viewing angle is near enough for a choice between lobes.
@@ -319,7 +319,7 @@ void Integrator::begin(int x, int y, PixelSampler& sampler, PixelSample& out, st
     }
     const glm::vec2 u_diffuse = sampler.next_pair(), u_gloss = sampler.next_pair();
     const Surface surface = scene_.geometry.surface(first, camera_direction);
-    const Lobes lobes(surface, -camera_direction, scene_);
+    const Lobes lobes(surface, -camera_direction, scene_, !scene_.diffuse_only);
     const glm::vec3 origin = surface.origin();
     const bool later_orders = scene_.settings.bounces != 0;
     add(emission, surface.emission);

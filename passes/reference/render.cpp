@@ -269,6 +269,7 @@ std::string ReferenceRender::metadata() const {
     json["samples"] = samples();
     json["bounces"] = settings_.bounces;
     json["diffuse_only"] = scene_->diffuse_only;
+    json["diffuse_secondary"] = settings_.diffuse_secondary;
     json["material_model"] = k_material_models[size_t(scene_->material_model)];
     json["occlusion_distance"] = scene_->occlusion_distance;
     json["occlusion_falloff"] = k_occlusion_falloffs[size_t(settings_.occlusion_falloff)];

@@ -22,6 +22,9 @@ struct ReferenceSettings {
     /// No microfacet lobe: the diffuse lobe of the shot's material model alone, which is Lambert with
     /// ρ = base colour·(1 − metallic) in the plain one. (A shot's own flag makes every material Lambert.)
     bool diffuse_only = false;
+    /// Surfaces behind the visible one have their diffuse lobe alone, which is what methods that store light as diffuse
+    /// radiosity (voxels, photons, point lights) model. The visible surface keeps both.
+    bool diffuse_secondary = false;
     float occlusion_distance = 0.1f; ///< d_max of out.ambient_occlusion_dmax, as a share of the scene's diagonal
     OcclusionFalloff occlusion_falloff = OcclusionFalloff::none;
     /// Paths end by Russian roulette (unbiased) only after this many bounces, and only when their throughput has fallen

@@ -22,6 +22,7 @@ struct PathCase {
     /// In both frames together, as far as they add up.
     int kept() const { return moves ? samples / 2 : samples; }
     bool moves = false; ///< the second frame starts anew
+    bool diffuse_secondary = false;
 };
 
 void PrintTo(const PathCase& path_case, std::ostream* out) {
@@ -37,6 +38,7 @@ std::vector<PixelSample> reference_means(const PathCase& path_case, const Shot& 
     ReferenceSettings settings;
     settings.bounces = path_case.bounces;
     settings.diffuse_only = path_case.diffuse_only;
+    settings.diffuse_secondary = path_case.diffuse_secondary;
     const TraceScene scene(shot, evaluate_shot(shot, path_case.moves ? 1 : 0), settings);
     Integrator integrator(scene);
     std::vector<PixelSample> means;
@@ -70,7 +72,8 @@ TEST_P(PathTraced, TakesTheReferencesSamples) {
     options.size = k_size;
     options.sets = {{"path.bounces", std::to_string(path_case.bounces)},
                     {"path.samples", std::to_string(path_case.samples / 2)},
-                    {"path.microfacets", path_case.diffuse_only ? "false" : "true"}};
+                    {"path.microfacets", path_case.diffuse_only ? "false" : "true"},
+                    {"path.glossy_secondary", path_case.diffuse_secondary ? "false" : "true"}};
     Session session(options);
     session.render();
     session.advance(); // what two frames took adds up
@@ -106,16 +109,19 @@ TEST_P(PathTraced, TakesTheReferencesSamples) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, PathTraced,
-                         testing::Values(PathCase{"cornell_direct", "cornell", 0, false, 8, 1e-3},
-                                         PathCase{"cornell_1", "cornell", 1, false, 8, 1e-3},
-                                         PathCase{"cornell_diffuse_2", "cornell", 2, true, 8, 1e-3},
-                                         PathCase{"cornell_8", "cornell", 8, false, 8, 1e-3},
-                                         PathCase{"cornell_all", "cornell", -1, false, 4, 1e-3},
-                                         PathCase{"lamp_direct", "cornell_lamp", 0, false, 8, 1e-3},
-                                         PathCase{"lamp_8", "cornell_lamp", 8, false, 8, 1e-3},
-                                         PathCase{"animated_2", "animated", 2, false, 8, 5e-3, false, true},
-                                         PathCase{"gallery_2", "gallery", 2, false, 8, 2e-3, true},
-                                         PathCase{"atrium_2", "atrium", 2, false, 16, 2e-3, true},
-                                         PathCase{"hairball_1", "hairball", 1, false, 8, 2e-3, true}),
-                         [](const auto& path_case) { return std::string(path_case.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Of, PathTraced,
+    testing::Values(PathCase{"cornell_direct", "cornell", 0, false, 8, 1e-3},
+                    PathCase{"cornell_1", "cornell", 1, false, 8, 1e-3},
+                    PathCase{"cornell_diffuse_2", "cornell", 2, true, 8, 1e-3},
+                    PathCase{"cornell_secondary_2", "cornell", 2, false, 8, 1e-3, false, false, true},
+                    PathCase{"cornell_8", "cornell", 8, false, 8, 1e-3},
+                    PathCase{"cornell_all", "cornell", -1, false, 4, 1e-3},
+                    PathCase{"lamp_direct", "cornell_lamp", 0, false, 8, 1e-3},
+                    PathCase{"lamp_8", "cornell_lamp", 8, false, 8, 1e-3},
+                    PathCase{"animated_2", "animated", 2, false, 8, 5e-3, false, true},
+                    PathCase{"gallery_2", "gallery", 2, false, 8, 2e-3, true},
+                    PathCase{"gallery_secondary_2", "gallery", 2, false, 8, 2e-3, true, false, true},
+                    PathCase{"atrium_2", "atrium", 2, false, 16, 2e-3, true},
+                    PathCase{"hairball_1", "hairball", 1, false, 8, 2e-3, true}),
+    [](const auto& path_case) { return std::string(path_case.param.name); });

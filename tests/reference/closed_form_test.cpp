@@ -4,6 +4,7 @@
 #include "scenes.h"
 
 #include <gtest/gtest.h>
+#include <memory>
 
 using namespace bounce;
 using namespace bounce::test;
@@ -287,4 +288,33 @@ TEST(ClosedForm, SpecularFurnace) {
     EXPECT_WITHIN(mean(render.part("out.emitted")), 1.0);
     EXPECT_WITHIN(mean(render.part("out.indirect_specular")), 1.0);
     EXPECT_WITHIN(mean(render.part("out.radiance")), 3.0);
+    // Metal has no diffuse lobe: behind the visible surface nothing is scattered any more.
+    settings.diffuse_secondary = true;
+    ReferenceRender diffuse_behind(maker.shot, settings);
+    diffuse_behind.render_to(64);
+    EXPECT_EQ(diffuse_behind.part("out.emitted").pixels, render.part("out.emitted").pixels);
+    EXPECT_EQ(mean(diffuse_behind.part("out.indirect_specular")), 0);
+    EXPECT_NE(diffuse_behind.key(), render.key());
+}
+
+// Glossy surfaces behind the visible one, and only they, lose their microfacet lobe: first scatterings are those of the
+// whole material, and what the visible surface's diffuse lobe reflects is what it reflects in a diffuse scene.
+TEST(ClosedForm, DiffuseSecondarySurfaces) {
+    SceneMaker maker;
+    maker.shot.diffuse_only = false;
+    maker.box({-1, -1, -1}, {1, 1, 1}, maker.material(glm::vec3(0.6f), glm::vec3(1), 0.3f, 0.4f));
+    maker.camera({0, 0, 0}, {1, 0.4f, 0.2f}, 80);
+    auto render = [&](bool only, bool secondary) {
+        auto r = std::make_unique<ReferenceRender>(
+            maker.shot, ReferenceSettings{.bounces = 2, .diffuse_only = only, .diffuse_secondary = secondary});
+        r->render_to(16);
+        return r;
+    };
+    const auto whole = render(false, false), secondary = render(false, true), only = render(true, false);
+    EXPECT_EQ(secondary->part("out.emitted").pixels, whole->part("out.emitted").pixels);
+    EXPECT_EQ(secondary->part("out.indirect_diffuse").pixels, only->part("out.indirect_diffuse").pixels);
+    const double gloss = mean(secondary->part("out.indirect_specular"));
+    EXPECT_GT(gloss, 0);
+    EXPECT_LT(gloss, mean(whole->part("out.indirect_specular")));
+    EXPECT_EQ(mean(only->part("out.indirect_specular")), 0);
 }
