@@ -43,7 +43,7 @@ void open_later(PanelContext& context, const std::string& name) {
 
 void draw_choice(PanelContext& context) {
     const GraphFile& file = context.session.graph().model().file();
-    ImGui::SetNextItemWidth(-ImGui::GetFrameHeight() * 5.2f);
+    ImGui::SetNextItemWidth(-1);
     if (ImGui::BeginCombo("##graph", context.session.options().graph.c_str())) {
         for (const std::string& name : graph_names()) {
             if (ImGui::Selectable(name.c_str(), name == file.name)) open_later(context, name);
@@ -53,7 +53,6 @@ void draw_choice(PanelContext& context) {
     }
     note_widget("graph.choose");
     show_tooltip(file.about + "\n" + file.path.string());
-    ImGui::SameLine();
     if (ImGui::Checkbox("find NaN", &context.session.graph().check_nan)) context.ui.redraw();
     note_widget("graph.check_nan");
     show_tooltip("Looks at everything that a pass writes for values that are not finite. Slow.");
