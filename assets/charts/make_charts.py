@@ -25,6 +25,11 @@ CHARTS = {
     "lrsm": [["cornell", "sponza_sun", *graphs, "--resource", "out.indirect_diffuse", "--size", "160x90",
               "--noise", "0.05"]
              for graphs in (["--graphs", "lrsm,lrsm_tuned", "--sweep", "lrsm"], ["--graphs", "traced", "--sweep", "traced"])],
+    "vf": [["cornell", *graphs, "--resource", "out.indirect_diffuse", "--size", "128x128", "--noise", "0.05"]
+           for graphs in (["--graphs", "vf,vf_tuned", "--sweep", "vf"], ["--graphs", "ism_tuned", "--sweep", "ism"])],
+    # Lists that are kept from growing: what does not fit is light that is lost.
+    "vf_list_length": [["cornell", "--graphs", "vf_tuned", "--sweep", "vf_list_length", "--resource", "out.indirect_diffuse",
+                        "--size", "128x128", "--noise", "0.05"]],
     "ldm_ao": [["cornell", *graphs, "--size", "128x128", "--noise", "0.02"]
                for graphs in (["--graphs", "ldm_ao,ldm_ao_tuned", "--sweep", "ldm_ao"],
                               ["--graphs", "traced_ao", "--sweep", "traced_ao"])],
