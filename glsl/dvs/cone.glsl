@@ -133,6 +133,7 @@ struct Traced {
     vec3 colour;
     float occlusion;         // α
     float ambient_occlusion; // δ
+    float away;              // metres to the hit of hit_then_sample; below 0: there is none
 };
 
 // Front to back.
@@ -146,13 +147,14 @@ void add_sphere(inout Traced cone, VoxelGrid grid, vec4 value, float d) {
 
 // `start_share`: how much of its first step the cone leaves out.
 Traced trace_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter, float start_share) {
-    Traced cone = Traced(vec3(0.0), 0.0, 0.0);
+    Traced cone = Traced(vec3(0.0), 0.0, 0.0, -1.0);
     if (hit_then_sample && exact_hits) {
         VoxelHit hit = find_blocking_voxel(grid, apex + start_offset * grid.voxel * direction, direction, 0.0);
         if (hit.t < 0.0) return cone;
         cone.colour = colour_at_hit(hit.voxel, hit.walk.front);
         cone.occlusion = 1.0;
         cone.ambient_occlusion = 1.0 / (1.0 + ambient_decay * 0.5 * diameter * hit.t / grid.voxel);
+        cone.away = hit.t;
         return cone;
     }
     if (hit_then_sample) {
@@ -163,6 +165,7 @@ Traced trace_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter, flo
         cone.colour = there.a > 1.0e-4 ? there.rgb / there.a : vec3(0.0);
         cone.occlusion = 1.0;
         cone.ambient_occlusion = 1.0 / (1.0 + ambient_decay * 0.5 * diameter * hit / grid.voxel);
+        cone.away = hit;
         return cone;
     }
     float t = max(start_offset, 1.0e-3) * grid.voxel, end = reach * scene_diagonal;
@@ -188,8 +191,9 @@ Traced trace_cone(VoxelGrid grid, vec3 apex, vec3 direction, float diameter, flo
     return cone;
 }
 
-vec3 light_along_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diameter) {
-    return trace_cone(grid, start.apex, direction, diameter, 0.0).colour;
+ConeLight light_along_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diameter) {
+    Traced cone = trace_cone(grid, start.apex, direction, diameter, 0.0);
+    return ConeLight(cone.colour, cone.occlusion, cone.away);
 }
 
 #endif

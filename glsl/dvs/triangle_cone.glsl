@@ -33,7 +33,7 @@ vec3 bounced_irradiance(VoxelGrid grid, TracedSurface s) {
 }
 
 Traced trace_triangle_cone(VoxelGrid grid, ConeStart start, StartPoint exact, vec3 direction, float diameter, uint seed) {
-    Traced cone = Traced(vec3(0.0), 0.0, 0.0);
+    Traced cone = Traced(vec3(0.0), 0.0, 0.0, -1.0);
     cone.occlusion = cone.ambient_occlusion = 1.0;
     if (dot(direction, exact.face) <= 0.0) return cone; // the surface itself is in the way
 #if hit == hit_near_triangle
@@ -64,10 +64,10 @@ Traced trace_triangle_cone(VoxelGrid grid, ConeStart start, StartPoint exact, ve
 #if hit == hit_near_triangle
         VoxelHit beyond = find_blocking_voxel(grid, start.apex, direction, near);
         t = beyond.t;
-        if (t < 0.0) return Traced(vec3(0.0), 0.0, 0.0);
+        if (t < 0.0) return Traced(vec3(0.0), 0.0, 0.0, -1.0);
         cone.colour = colour_at_hit(beyond.voxel, beyond.walk.front);
 #else
-        return Traced(vec3(0.0), 0.0, 0.0);
+        return Traced(vec3(0.0), 0.0, 0.0, -1.0);
 #endif
     }
     cone.ambient_occlusion = 1.0 / (1.0 + ambient_decay * 0.5 * diameter * t / grid.voxel);

@@ -36,7 +36,7 @@ vec3 colour_without_lights(ivec3 voxel, bool front) {
 
 Traced trace_walked_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diameter) {
     WalkedHit hit = walk_to_hit(grid, start, direction);
-    Traced cone = Traced(vec3(0.0), 0.0, 0.0);
+    Traced cone = Traced(vec3(0.0), 0.0, 0.0, -1.0);
     if (hit.t < 0.0) return cone;
     ivec3 voxel = hit.voxel;
     uint flags = 0u;

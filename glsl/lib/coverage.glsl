@@ -3,20 +3,10 @@
 // Whether a surface is there at a place, by its alpha. MASK: where alpha reaches the cutoff. BLEND: with the probability
 // alpha, by a hash of the place and of the surface (hashed alpha testing, Wyman & McGuire 2017): where alpha reaches a
 // threshold drawn evenly from (0, 1], so always at 1 and never at 0. One surface behind another draws anew, so that k layers
-// let (1 − α)^k through in the mean. passes/scene/coverage.h mirrors the threshold, passes/core/low_discrepancy.h the hash.
+// let (1 − α)^k through in the mean. passes/scene/coverage.h mirrors the threshold.
 // Include lib/scene.glsl before this file.
 
-uint hash_u32(uint x) {
-    x ^= x >> 16;
-    x *= 0x7feb352du;
-    x ^= x >> 15;
-    x *= 0x846ca68bu;
-    x ^= x >> 16;
-    return x;
-}
-uint hash_combine(uint a, uint b) {
-    return hash_u32(a ^ (b + 0x9e3779b9u + (a << 6) + (a >> 2)));
-}
+#include "lib/hash.glsl"
 
 float coverage_threshold(uint bits) {
     return min(float((bits >> 8) + 1u) / 16777216.0, 0.999999);

@@ -1,8 +1,8 @@
 #ifndef LIB_SAMPLER_GLSL
 #define LIB_SAMPLER_GLSL
 // The random numbers of one sample of one pixel: an Owen-scrambled, index-shuffled Sobol sequence over the samples of the
-// pixel in each dimension (Burley 2020). passes/core/low_discrepancy.h mirrors this file. Include lib/coverage.glsl, which
-// has the hashes, before it.
+// pixel in each dimension (Burley 2020). passes/core/low_discrepancy.h mirrors this file.
+#include "lib/hash.glsl"
 
 struct PixelSampler {
     uint seed, index_reversed, dimension;

@@ -33,16 +33,15 @@ Blocker find_blocker(VoxelGrid grid, vec3 apex, vec3 direction, float from) {
     return Blocker(hit.t < 0.0 ? -1.0 : hit.enters, hit.leaves, ivec3(0));
 }
 
-// Radiance along the cone, and in a its occlusion. `diameter`: 2·tan(θ/2), metres a metre. near_spheres
-// look the maps up between the surface and the apex: what is lit and faces the surface counts, and blocks, by the share of
+// near_spheres look the maps up between the surface and the apex: what is lit and faces the surface counts, and blocks, by the share of
 // the sphere that it covers.
-vec4 trace_lit_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diameter) {
+ConeLight light_along_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diameter) {
     vec3 light = vec3(0.0), surface = start.surface, apex = start.apex;
     if (hit_then_sample && hit_lookup == hit_lookup_map) {
         WalkedHit hit = walk_to_hit(grid, start, direction);
-        if (hit.t < 0.0) return vec4(0.0);
+        if (hit.t < 0.0) return ConeLight(vec3(0.0), 0.0, -1.0);
         if (hit.met) SEE_SPHERE(true, surface + hit.t * direction, hit.t, grid.voxel, 1.0, 0.0, 1.0, hit.light);
-        return vec4(hit.light, 1.0);
+        return ConeLight(hit.light, 1.0, hit.t);
     }
     if (hit_then_sample) {
         float open = 1.0;
@@ -59,12 +58,12 @@ vec4 trace_lit_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diame
             open *= 1.0 - blocked;
         }
         float hit = find_lit_hit(grid, apex, direction, max(start_offset, 1.0e-3) * grid.voxel).t;
-        if (hit < 0.0) return vec4(light, 1.0 - open);
+        if (hit < 0.0) return ConeLight(light, 1.0 - open, -1.0);
         float radius = max(hit_radius * grid.voxel, 0.5 * diameter * hit);
         for (int view = 0; view < views.length(); ++view)
             light += open * sample_view(view, apex + hit * direction, radius, -direction, -1.0);
         SEE_SPHERE(true, apex + hit * direction, hit, 2.0 * radius, 1.0, sphere_level(grid, 2.0 * radius), 1.0, light);
-        return vec4(light, 1.0);
+        return ConeLight(light, 1.0, hit);
     }
     float occlusion = 0.0;
     float t = max(start_offset, 1.0e-3) * grid.voxel, end = reach * scene_diagonal;
@@ -83,11 +82,7 @@ vec4 trace_lit_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diame
         SEE_SPHERE(false, centre, t, d, alpha, level, share, light - before);
         t += cone_step * d;
     }
-    return vec4(light, occlusion);
-}
-
-vec3 light_along_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diameter) {
-    return trace_lit_cone(grid, start, direction, diameter).rgb;
+    return ConeLight(light, occlusion, -1.0);
 }
 
 #endif

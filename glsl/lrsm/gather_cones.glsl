@@ -63,7 +63,8 @@ vec4 gather_cone(VoxelGrid grid, GatherPoint point, int i, float diameter, out v
 #if hit >= hit_triangle
     return trace_lit_triangles(grid, point.start, point.exact, cone.xyz, diameter, hash_combine(point.seed, uint(i)) | 1u);
 #else
-    return trace_lit_cone(grid, point.start, cone.xyz, diameter);
+    ConeLight light = light_along_cone(grid, point.start, cone.xyz, diameter);
+    return vec4(light.radiance, light.occlusion);
 #endif
 }
 

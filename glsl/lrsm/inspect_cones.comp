@@ -13,7 +13,7 @@ layout(std430) writeonly buffer debug_cones {
 
 uniform vec2 pixel = vec2(0.5);  //! [0, 1] the inspected pixel, as shares of width and height from the top left
 
-// Called by trace_lit_cone and sample_view.
+// Called by light_along_cone and sample_view.
 int kept = 0, seen = 0, seen_layers = 0;
 float seen_level = -1.0, seen_end = 0.0;
 void keep_sphere(bool at_hit, vec3 centre, float t, float diameter, float alpha, float level, float share, vec3 light) {

@@ -186,10 +186,7 @@ void main() {
         }
         if (!ends) {
             Lobes lobes = lobes_of(s, -direction);
-            if (path != k_before && !glossy_secondary) {
-                lobes.glossy = false;
-                lobes.gloss_share = 0.0;
-            }
+            if (path != k_before && !glossy_secondary) lobes = without_gloss(lobes);
             vec2 u = vec2(0.0), v = vec2(0.0); // at the visible surface the diffuse lobe's and the other's, else also choices
             if (path != k_before) {
                 ++depth;

@@ -29,7 +29,13 @@ VoxelGrid cone_grid();
 // α of a sphere, as seen along `direction`; 0 outside the grid.
 float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float level);
 
-// Radiance along one cone; of the sources that hold light. `diameter`: 2·tan(θ/2), metres a metre.
-vec3 light_along_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diameter);
+struct ConeLight {
+    vec3 radiance;
+    float occlusion;
+    float away; // metres to what blocks the cone; below 0: nothing, or the cone fades without a place
+};
+
+// Of the sources that hold light. `diameter`: 2·tan(θ/2), metres a metre.
+ConeLight light_along_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diameter);
 
 #endif

@@ -35,7 +35,7 @@ void main() {
         float below = dot(mirrored, face);
         if (below < 0.02) mirrored = normalize(mirrored + (0.02 - below) * face);
         float diameter = 2.0 * (aperture_from_roughness ? brdf_alpha(rm.x) : tan(radians(0.5 * aperture)));
-        radiance = albedo * light_along_cone(grid, cone_start(grid, position, face), mirrored, diameter);
+        radiance = albedo * light_along_cone(grid, cone_start(grid, position, face), mirrored, diameter).radiance;
     }
     imageStore(out_indirect_specular, pixel, vec4(min(radiance, vec3(65504.0)), 1.0));
 }
