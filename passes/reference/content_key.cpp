@@ -130,7 +130,8 @@ std::string content_key(const Shot& shot, const ShotState& state, const Referenc
     hash.add(std::string(k_tracer_version));
     hash.add_value(settings.bounces);
     hash.add_value(int(settings.diffuse_only || shot.diffuse_only));
-    if (settings.diffuse_secondary && !settings.diffuse_only && !shot.diffuse_only) hash.add(std::string("diffuse_secondary"));
+    if (settings.diffuse_secondary && !settings.diffuse_only && !shot.diffuse_only)
+        hash.add(std::string("diffuse_secondary"));
     if (shot.effective_model() != MaterialModel::plain) hash.add_value(int(shot.effective_model()) + 0x100);
     hash.add_value(settings.occlusion_distance);
     if (settings.occlusion_falloff != OcclusionFalloff::none) hash.add_value(int(settings.occlusion_falloff));
