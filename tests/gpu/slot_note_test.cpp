@@ -36,7 +36,8 @@ TEST(SlotNote, OptionalNeutralAndSource) {
 
 TEST(SlotNote, OtherWordsAreAnError) {
     EXPECT_THAT(error_of([] { read("optinal"); }), HasSubstr("invalid note 'optinal' of slot 'a.b': expected optional, "
-                                                             "neutral VALUE or from NAME (did you mean 'optional'?)"));
+                                                             "neutral VALUE, from NAME or ordered: REASON (did you "
+                                                             "mean 'optional'?)"));
     EXPECT_THAT(error_of([] { read("optional maybe"); }), HasSubstr("invalid note 'optional maybe'"));
     EXPECT_THAT(error_of([] { read("neutral"); }), HasSubstr("'neutral' takes one number, or four"));
     EXPECT_THAT(error_of([] { read("neutral white"); }), HasSubstr("neutral"));

@@ -95,7 +95,15 @@ TEST(SwitchedOff, WhatAPassWouldMakeIsMadeWhenItIsAskedFor) {
             }
             for (const std::string& id : ids)
                 model.switch_pass(id, true);
-            EXPECT_TRUE(model.plan(facts, {64, 36}).find_resource(resource)) << graph << ": " << resource;
+            const Plan planned = model.plan(facts, {64, 36});
+            if (ids.empty()) { // what makes it is on, but nothing that runs reads it
+                EXPECT_TRUE(std::any_of(
+                    planned.skipped.begin(), planned.skipped.end(),
+                    [](const PlanSkip& pass) { return pass.reason == "only skipped passes read what it makes"; }))
+                    << graph << ": " << resource;
+                continue;
+            }
+            EXPECT_TRUE(planned.find_resource(resource)) << graph << ": " << resource;
             asked.insert(resource);
         }
     }
