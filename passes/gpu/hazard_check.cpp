@@ -144,12 +144,11 @@ std::string HazardCheck::barrier_report() const {
     std::map<std::string, bool> places; // whether one of its barriers was needed
     for (const Barrier& barrier : barriers_)
         places[barrier.place] |= barrier.needed != 0;
-    std::vector<std::string> unneeded;
+    std::vector<std::string> idle;
     for (const auto& [place, needed] : places)
-        if (!needed) unneeded.push_back(place);
+        if (!needed) idle.push_back(place);
     std::string text = fmt::format("{} memory barriers at {} places", barriers_.size(), places.size());
-    if (!unneeded.empty())
-        text += fmt::format(", {} of which no command needed: {}", unneeded.size(), join(unneeded, "; "));
+    if (!idle.empty()) text += fmt::format(", {} of which no command needed: {}", idle.size(), join(idle, "; "));
     return text;
 }
 
