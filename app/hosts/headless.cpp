@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/log.h"
+#include "gpu/shader_cache.h"
 
 #include <algorithm>
 #include <cstring>
@@ -116,6 +117,7 @@ std::vector<HeadlessDevice> list_headless_devices() {
 
 HeadlessContext::HeadlessContext(int wanted) : egl_(std::make_unique<Egl>()) {
     ask_mesa_for_46();
+    guard_shader_cache();
     auto platform = function<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
     std::vector<EGLDeviceEXT> found = devices();
     std::vector<HeadlessDevice> order = list_headless_devices();

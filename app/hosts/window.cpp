@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/log.h"
+#include "gpu/shader_cache.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -147,6 +148,7 @@ glm::ivec2 fitting(glm::ivec2 size) {
 
 Window::Window(const WindowOptions& options) : native_(std::make_unique<Native>()) {
     ask_mesa_for_46();
+    guard_shader_cache();
     native_->options = options;
     glfwSetErrorCallback(on_error);
     if (!glfwInit()) {

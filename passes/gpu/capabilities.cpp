@@ -4,6 +4,7 @@
 #include "core/log.h"
 #include "core/text.h"
 #include "gpu/call_watch.h"
+#include "gpu/shader_cache.h"
 
 #include <algorithm>
 #include <atomic>
@@ -68,6 +69,7 @@ void ask_mesa_for_46() {
 }
 
 Capabilities start_context() {
+    settle_shader_cache();
     if (call_watch_is_wanted())
         watch_calls();
     else
