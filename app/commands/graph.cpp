@@ -5,7 +5,7 @@
 #include "app/print.h"
 #include "core/error.h"
 #include "graph/graph_overlay.h"
-#include "graph/model.h"
+#include "graph/plan_needs.h"
 #include "scene/find_scene.h"
 
 #include <fmt/format.h>
@@ -18,6 +18,7 @@ struct GraphArguments {
     std::string shot = k_default_shot;
     std::vector<std::string> sets;
     std::string size;
+    std::string limits;
     bool graphviz = false;
     bool expanded = false;
     std::string diff;
@@ -51,13 +52,20 @@ int print_graph(const GraphArguments& arguments) {
     SessionArguments shared;
     shared.sets = arguments.sets;
     shared.size = arguments.size;
+    shared.limits = arguments.limits;
     SessionOptions options = shared.options();
     GraphModel model(read_graph_file(find_graph(arguments.name)));
     for (const auto& [name, text] : options.sets)
         model.set(name, text, ParameterOrigin::command_line);
     Shot shot = load_shot(arguments.shot);
-    Plan plan = model.plan(shot_facts(shot), options.size.value_or(glm::ivec2(shot.width, shot.height)));
-    print("{}", arguments.graphviz ? plan_graphviz(model, plan) : plan_text(model, plan));
+    const SceneFacts facts = shot_facts(shot);
+    const Plan plan = model.plan(facts, options.size.value_or(glm::ivec2(shot.width, shot.height)));
+    check_plan_limits(model, facts, plan); // pretended ones: there is no driver here
+    if (arguments.graphviz)
+        print("{}", plan_graphviz(model, plan));
+    else
+        print("{}\nneeds, and what every driver of OpenGL 4.6 has:\n{}", plan_text(model, plan),
+              needs_text(plan_needs(model, plan)));
     return 0;
 }
 } // namespace
@@ -72,6 +80,7 @@ void add_graph_command(CLI::App& app, CommandFunction& chosen) {
         ->capture_default_str();
     command->add_option("--set", arguments->sets, "a parameter: pass.name=value")->allow_extra_args(false);
     command->add_option("--size", arguments->size, "WxH instead of the shot's size")->check(picture_size());
+    SessionArguments::add_limits_to(*command, arguments->limits);
     command->add_flag("--graphviz", arguments->graphviz, "as a Graphviz digraph (dot -Tsvg)");
     auto* expanded = command->add_flag("--expanded", arguments->expanded, "as one graph file that extends nothing");
     command

@@ -3,6 +3,7 @@
 #include "app/commands/option_checks.h"
 #include "core/error.h"
 #include "gpu/call_watch.h"
+#include "gpu/driver_limits.h"
 #include "gpu/shader_limits.h"
 #include "graph/graph_file.h"
 #include "scene/find_scene.h"
@@ -36,8 +37,15 @@ void SessionArguments::add_settings_to(CLI::App& command) {
                     "name=number: what shader text may hold at most, as private_bytes=262144 (repeatable)")
         ->check(shader_limit())
         ->allow_extra_args(false);
+    add_limits_to(command, limits);
     command.add_flag("--check-nan", check_nan, "look for values that are not finite after every pass");
     command.add_flag("--check-hazards", check_hazards, "look for memory barriers that are missing between passes");
+}
+
+void SessionArguments::add_limits_to(CLI::App& command, std::string& limits) {
+    command.add_option("--limits", limits, "act as a driver with fewer: 'minimum' of OpenGL 4.6, or GL_MAX_…=N,…")
+        ->check(not_empty())
+        ->type_name("LIMITS");
 }
 
 void SessionArguments::check_names() const {
@@ -51,6 +59,7 @@ SessionOptions SessionArguments::options() const {
     out.graph = graph;
     out.check_nan = check_nan;
     if (check_hazards) want_call_watch();
+    if (!limits.empty()) pretend_limits(limits);
     if (!material_model.empty()) out.material_model = material_model_named(material_model);
     for (const std::string& limit : shader_limits)
         set_shader_limit(limit);

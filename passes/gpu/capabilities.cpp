@@ -4,42 +4,19 @@
 #include "core/log.h"
 #include "core/text.h"
 #include "gpu/call_watch.h"
+#include "gpu/context_loss.h"
+#include "gpu/device_memory.h"
+#include "gpu/driver_limits.h"
 #include "gpu/shader_cache.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <fmt/format.h>
-#include <limits>
 
 namespace bounce {
 
 namespace {
-struct NeededLimit {
-    GLenum name;
-    const char* text;
-    long long least; ///< the minimum of the OpenGL 4.6 specification, which the published graphs fit
-};
-const NeededLimit k_limits[] = {
-    {GL_MAX_TEXTURE_SIZE, "GL_MAX_TEXTURE_SIZE", 16384},
-    {GL_MAX_3D_TEXTURE_SIZE, "GL_MAX_3D_TEXTURE_SIZE", 2048},
-    {GL_MAX_ARRAY_TEXTURE_LAYERS, "GL_MAX_ARRAY_TEXTURE_LAYERS", 2048},
-    {GL_MAX_TEXTURE_IMAGE_UNITS, "GL_MAX_TEXTURE_IMAGE_UNITS", 16},
-    {GL_MAX_COMPUTE_TEXTURE_IMAGE_UNITS, "GL_MAX_COMPUTE_TEXTURE_IMAGE_UNITS", 16},
-    {GL_MAX_IMAGE_UNITS, "GL_MAX_IMAGE_UNITS", 8},
-    {GL_MAX_COMPUTE_IMAGE_UNIFORMS, "GL_MAX_COMPUTE_IMAGE_UNIFORMS", 8},
-    {GL_MAX_FRAGMENT_IMAGE_UNIFORMS, "GL_MAX_FRAGMENT_IMAGE_UNIFORMS", 8},
-    {GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, "GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS", 8},
-    {GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, "GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS", 8},
-    {GL_MAX_SHADER_STORAGE_BLOCK_SIZE, "GL_MAX_SHADER_STORAGE_BLOCK_SIZE", 1 << 27},
-    {GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, "GL_MAX_COMPUTE_SHARED_MEMORY_SIZE", 32768},
-    {GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS, "GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS", 1024},
-    {GL_MAX_COLOR_ATTACHMENTS, "GL_MAX_COLOR_ATTACHMENTS", 8},
-    {GL_MAX_DRAW_BUFFERS, "GL_MAX_DRAW_BUFFERS", 8},
-    {GL_MAX_VIEWPORTS, "GL_MAX_VIEWPORTS", 16},
-    {GL_MAX_UNIFORM_BLOCK_SIZE, "GL_MAX_UNIFORM_BLOCK_SIZE", 16384},
-};
-
 std::atomic<uint64_t> g_high_severity{0};
 
 std::string text_of(GLenum name) {
@@ -70,6 +47,8 @@ void ask_mesa_for_46() {
 
 Capabilities start_context() {
     settle_shader_cache();
+    forget_driver();
+    forget_reset();
     if (call_watch_is_wanted())
         watch_calls();
     else
@@ -106,27 +85,17 @@ Capabilities read_capabilities() {
                                "GL_ARB_texture_view", "GL_ARB_shader_storage_buffer_object", "GL_KHR_debug"}) {
         if (!has(needed)) caps.missing.push_back(std::string("extension ") + needed);
     }
-    caps.layer_from_vertex_shader = has("GL_ARB_shader_viewport_layer_array");
+    caps.layer_from_vertex_shader = driver_has("GL_ARB_shader_viewport_layer_array");
     caps.anisotropic_filtering = has("GL_ARB_texture_filter_anisotropic") || has("GL_EXT_texture_filter_anisotropic");
 
-    for (const NeededLimit& needed : k_limits) {
-        GLint64 value = 0;
-        glGetInteger64v(needed.name, &value);
-        caps.limits[needed.text] = value;
-        if (value < needed.least) {
-            caps.missing.push_back(fmt::format("{} of {} (this driver has {})", needed.text, needed.least, value));
-        }
+    for (const DriverLimit& limit : driver_limits()) {
+        caps.limits[limit.text] = driver_limit(limit.name);
+        const int64_t value = true_limit(limit.name);
+        if (limit.is_needed && value < limit.minimum)
+            caps.missing.push_back(fmt::format("{} of {} (this driver has {})", limit.text, limit.minimum, value));
     }
-    while (glGetError() != GL_NO_ERROR) {
-    }
+    drop_errors();
     return caps;
-}
-
-int64_t driver_limit(GLenum name) {
-    if (!glGetInteger64v) return std::numeric_limits<int64_t>::max();
-    GLint64 value = 0;
-    glGetInteger64v(name, &value);
-    return value;
 }
 
 std::string describe(const Capabilities& caps) {

@@ -14,7 +14,7 @@ struct Capabilities {
     std::vector<std::string> missing;      ///< needed limits and features that are not there, one line each
     bool layer_from_vertex_shader = false; ///< ARB_shader_viewport_layer_array
     bool anisotropic_filtering = false;
-    std::map<std::string, long long> limits; ///< the limits that graphs are checked against, by OpenGL name
+    std::map<std::string, long long> limits; ///< the limits that graphs are checked against (driver_limits.h)
 };
 
 /// Mesa's software drivers implement what 4.6 needs but report 4.5: asks them for 4.6, unless the user has set the
@@ -25,10 +25,6 @@ void ask_mesa_for_46();
 Capabilities read_capabilities();
 /// Three or four lines for the start of the log.
 std::string describe(const Capabilities& capabilities);
-
-/// A limit of the present driver, GL_MAX_TEXTURE_SIZE for example. Without a driver there is none: graphs are also
-/// planned where no context is.
-int64_t driver_limit(GLenum name);
 
 /// What a host does once its context is current: messages to the log, capabilities, and an Error that names what is
 /// missing.

@@ -13,17 +13,18 @@ namespace {
 
 using Range = std::pair<size_t, size_t>; ///< tokens from the first to before the second
 
-enum class Storage { local, global, shared_memory, uniform, buffer };
+using Storage = GlslStorage;
 
 class Structure {
   public:
     Structure(const std::vector<GlslToken>& tokens, const ShaderLimits& limits) : tokens_(tokens), limits_(limits) {}
 
-    void run() {
+    GlslOutline run() {
         check_nesting(tokens_, limits_);
         for (size_t at = 0; at < tokens_.size();)
             at = external(at);
-        check_calls(functions_, limits_);
+        check_calls(outline_.functions, limits_);
+        return std::move(outline_);
     }
 
   private:
@@ -90,7 +91,7 @@ class Structure {
     }
 
     /// The members between the braces, added up.
-    GlslSize members(size_t open) {
+    GlslSize members(size_t open, std::vector<std::string_view>* names = nullptr) {
         GlslSize sum{0, 0, true};
         size_t end = closed(open);
         for (size_t at = open + 1; at + 1 < end;) {
@@ -98,6 +99,7 @@ class Structure {
             for (const auto& [name, size] : declared({at, semicolon})) {
                 sum.bytes += size.bytes;
                 sum.names += size.names;
+                if (names) names->push_back(text(name));
             }
             at = semicolon + 1;
         }
@@ -109,19 +111,30 @@ class Structure {
         GlslSize size = members(open);
         if (is_word(open - 1) && text(open - 1) != "struct") types_.define(text(open - 1), size);
         size_t end = find_outside(closed(open), ";{}");
-        for (const auto& [name, variable] : declarators(closed(open), end, size))
+        for (const auto& [name, variable] : declarators(closed(open), end, size)) {
             account(name, variable, storage_of({at, open}, storage));
+            if (storage != Storage::local)
+                outline_.variables.push_back({text(name), "struct", storage_of({at, open}, storage), variable.bytes,
+                                              size.bytes > 0 ? variable.bytes / size.bytes : 1,
+                                              contains({at, open}, "out")});
+        }
         return end + 1;
     }
 
     /// "layout(…) buffer B { … } name[4];"
     size_t block(size_t at, size_t open) {
         Storage storage = storage_of({at, open}, Storage::global);
-        GlslSize size = members(open);
+        GlslBlock found{text(open - 1), storage, 0, {}};
+        GlslSize size = members(open, &found.means);
         size_t end = find_outside(closed(open), ";{}");
-        if (closed(open) != end)
-            for (const auto& [name, whole] : declarators(closed(open), end, size))
+        if (closed(open) != end) {
+            for (const auto& [name, whole] : declarators(closed(open), end, size)) {
                 size = whole;
+                found.means = {text(name)};
+            }
+        }
+        found.bytes = size.bytes;
+        outline_.blocks.push_back(std::move(found));
         int64_t limit = storage == Storage::buffer ? limits_.buffer_bytes : limits_.uniform_bytes;
         const char* limit_name = storage == Storage::buffer ? "buffer_bytes" : "uniform_bytes";
         if (size.bytes > double(limit))
@@ -214,10 +227,18 @@ class Structure {
             dimensions(equals);
             constants_.erase(text(name));
             initial_.erase(text(name));
+            const bool hides = !declared_.insert(text(name)).second;
+            if (hides) outline_.constants.erase(text(name));
+            if (storage != Storage::local && !is_const) {
+                const GlslSize& type = *types_.find(text(*type_at(range)));
+                outline_.variables.push_back({text(name), text(*type_at(range)), storage, size.bytes,
+                                              type.bytes > 0 ? size.bytes / type.bytes : 1, contains(range, "out")});
+            }
             if (text(equals) == "=") {
                 const auto value = constant({equals + 1, std::min(find_outside(equals, ",;"), range.second)});
                 if (value) initial_[text(name)] = *value;
                 if (value && is_const) constants_[text(name)] = *value;
+                if (value && is_const && storage == Storage::global && !hides) outline_.constants[text(name)] = *value;
             }
             account(name, size, storage);
         }
@@ -280,7 +301,8 @@ class Structure {
             first = end + 1;
         }
         size_t end = statement(body, 0, 1);
-        GlslFunction& own = functions_.emplace_back(GlslFunction{name, line(at), double(end - body), {}});
+        GlslFunction& own =
+            outline_.functions.emplace_back(GlslFunction{name, line(at), double(end - body), {}, body, end});
         for (size_t i = body; i + 1 < end; ++i)
             if (is_word(i) && text(i + 1) == "(") own.calls.push_back(text(i));
         return end;
@@ -383,14 +405,15 @@ class Structure {
     GlslTypes types_;
     std::map<std::string_view, double> constants_; ///< const variables whose value is known
     std::map<std::string_view, double> initial_;   ///< what the function's variables began with
-    std::vector<GlslFunction> functions_;
+    std::set<std::string_view> declared_;          ///< names of variables so far
+    GlslOutline outline_;
     double local_bytes_ = 0, global_bytes_ = 0, shared_bytes_ = 0, uniform_bytes_ = 0, names_ = 0;
 };
 
 } // namespace
 
-void check_structure(const std::vector<GlslToken>& tokens, const ShaderLimits& limits) {
-    Structure(tokens, limits).run();
+GlslOutline check_structure(const std::vector<GlslToken>& tokens, const ShaderLimits& limits) {
+    return Structure(tokens, limits).run();
 }
 
 } // namespace bounce

@@ -2,21 +2,24 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "gpu/device_memory.h"
 
 #include <fmt/format.h>
 
 namespace bounce {
 
 Buffer::Buffer(uint64_t bytes, const void* data, const std::string& name, GLbitfield flags) : bytes_(bytes) {
-    while (glGetError() != GL_NO_ERROR) {
-    }
+    drop_errors();
     glCreateBuffers(1, &id_);
     // A buffer of no bytes is an error in OpenGL; an empty list still has to be bindable.
     glNamedBufferStorage(id_, GLsizeiptr(bytes ? bytes : 16), bytes ? data : nullptr, flags);
     ++live_objects().buffers;
-    if (glGetError() != GL_NO_ERROR) {
+    if (GLenum error = glGetError(); error != GL_NO_ERROR) {
         destroy();
-        throw Error(fmt::format("buffer '{}' of {} could not be allocated", name, format_bytes(double(bytes))));
+        const std::string text =
+            fmt::format("buffer '{}' of {} could not be allocated", name, format_bytes(double(bytes)));
+        if (error == GL_OUT_OF_MEMORY) throw OutOfDeviceMemory(text + " (out of memory)");
+        throw Error(text + fmt::format(" (GL error {:#x})", error));
     }
     glObjectLabel(GL_BUFFER, id_, -1, name.c_str());
 }

@@ -1,6 +1,7 @@
 #include "core/error.h"
 #include "core/text.h"
-#include "gpu/capabilities.h"
+#include "gpu/device_memory.h"
+#include "gpu/driver_limits.h"
 #include "gpu/objects.h"
 
 #include <algorithm>
@@ -69,8 +70,7 @@ static void check_size(const TextureDesc& desc, const std::string& name) {
 
 GpuTexture::GpuTexture(const TextureDesc& desc, const std::string& name) : desc_(desc), name_(name) {
     check_size(desc, name);
-    while (glGetError() != GL_NO_ERROR) {
-    }
+    drop_errors();
     glCreateTextures(gl_target(desc.kind), 1, &id_);
     if (desc.kind == TextureKind::texture_2d) {
         glTextureStorage2D(id_, desc.mips, desc.format, desc.size.x, desc.size.y);
@@ -80,9 +80,10 @@ GpuTexture::GpuTexture(const TextureDesc& desc, const std::string& name) : desc_
     ++live_objects().textures;
     if (GLenum error = glGetError(); error != GL_NO_ERROR) {
         destroy();
-        throw Error(fmt::format("texture '{}' of {} could not be allocated ({})", name,
-                                format_bytes(double(texture_bytes(desc))),
-                                error == GL_OUT_OF_MEMORY ? "out of memory" : fmt::format("GL error {:#x}", error)));
+        const std::string text =
+            fmt::format("texture '{}' of {} could not be allocated", name, format_bytes(double(texture_bytes(desc))));
+        if (error == GL_OUT_OF_MEMORY) throw OutOfDeviceMemory(text + " (out of memory)");
+        throw Error(text + fmt::format(" (GL error {:#x})", error));
     }
     glObjectLabel(GL_TEXTURE, id_, -1, name.c_str());
     GLenum filter = format_by_enum(desc.format).is_integer() ? GL_NEAREST : GL_LINEAR;

@@ -1,6 +1,6 @@
 #include "graph/allocations.h"
 
-#include "core/error.h"
+#include "gpu/device_memory.h"
 
 #include <algorithm>
 
@@ -44,6 +44,8 @@ void Allocations::update(const Plan& plan) {
         }
         next.push_back(std::move(entry));
     }
+    // Some drivers find their memory only when an object is first filled.
+    if (drop_errors()) throw OutOfDeviceMemory("the driver ran out of memory when it filled them");
     for (auto [to, from] : reused)
         next[to] = std::move(entries_[from]);
     for (size_t i = 0; i < next.size(); ++i) {
@@ -62,6 +64,11 @@ void Allocations::update(const Plan& plan) {
     }
     framebuffers_.clear(); // they name resources by index
     entries_ = std::move(next);
+}
+
+void Allocations::release() {
+    framebuffers_.clear();
+    entries_.clear();
 }
 
 const GpuTexture& Allocations::texture(int resource, bool previous) const {

@@ -15,6 +15,8 @@ class Allocations {
     /// Makes what `plan` needs, cleared, and lets go of what it does not. Throws Error when memory does not suffice;
     /// the old objects are then still there.
     void update(const Plan& plan);
+    /// Lets go of everything.
+    void release();
     /// Differs between any two objects that ever stood for a resource.
     uint64_t serial(int resource) const { return entries_[size_t(resource)]->serial; }
 

@@ -1,7 +1,9 @@
 #include "graph/context.h"
 
 #include "core/error.h"
+#include "core/limits.h"
 #include "gpu/barrier.h"
+#include "gpu/driver_limits.h"
 #include "graph/graph.h"
 #include "graph/scope.h"
 
@@ -123,6 +125,15 @@ int PassContext::mip_of(const PlanSlot& slot) const {
     return index_at(slot.bind.mip);
 }
 
+/// The plan's buffers were checked before; the scene's are as large as the scene.
+static void check_block_size(const std::string& name, uint64_t bytes) {
+    const int64_t limit = driver_limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
+    if (int64_t(bytes) > limit)
+        throw Error(fmt::format("'{}' has {} bytes; this driver's storage blocks hold {} "
+                                "(GL_MAX_SHADER_STORAGE_BLOCK_SIZE): use a smaller scene",
+                                slot_name(name), grouped(bytes), grouped(uint64_t(limit))));
+}
+
 static bool sampler_is_2d(GLenum type) {
     return type == GL_SAMPLER_2D || type == GL_INT_SAMPLER_2D || type == GL_UNSIGNED_INT_SAMPLER_2D ||
            type == GL_SAMPLER_2D_SHADOW;
@@ -202,23 +213,22 @@ Program& PassContext::use(const std::string& name) {
     }
 
     for (const BlockInfo& block : interface.storage_blocks) {
-        GLuint buffer = 0;
+        const Buffer* buffer = &graph_.empty_buffer_; // a skipped list: something readable must be there
         const PlanSlot* s = pass_.find(slot_name(block.name));
         if (block.name == "scene_vertices")
-            buffer = scene.vertices().id();
+            buffer = &scene.vertices();
         else if (block.name == "scene_indices")
-            buffer = scene.indices().id();
+            buffer = &scene.indices();
         else if (block.name == "scene_draws")
-            buffer = scene.draws().id();
+            buffer = &scene.draws();
         else if (block.name == "scene_materials")
-            buffer = scene.materials().id();
+            buffer = &scene.materials();
         else if (block.name == "scene_lights")
-            buffer = scene.lights().id();
+            buffer = &scene.lights();
         else if (s && s->resource >= 0)
-            buffer = graph_.allocations_.buffer(s->resource, s->bind.previous).id();
-        else
-            buffer = graph_.empty_buffer_.id(); // a skipped list: something readable must be there
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block.binding, buffer);
+            buffer = &graph_.allocations_.buffer(s->resource, s->bind.previous);
+        check_block_size(block.name, buffer->bytes());
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block.binding, buffer->id());
     }
     return *program;
 }
@@ -230,6 +240,13 @@ static glm::uvec3 groups(glm::ivec3 threads, glm::ivec3 local) {
 void PassContext::dispatch(const std::string& name, glm::ivec3 threads) {
     Program& program = use(name);
     glm::uvec3 count = groups(threads, program.interface().local_size);
+    for (int axis = 0; axis < 3; ++axis) {
+        const int64_t limit = driver_limit(GL_MAX_COMPUTE_WORK_GROUP_COUNT, axis);
+        if (int64_t(count[axis]) > limit)
+            throw Error(fmt::format("{} work groups along {} of '{}'; this driver allows {} "
+                                    "(GL_MAX_COMPUTE_WORK_GROUP_COUNT): use a smaller scene or size",
+                                    grouped(count[axis]), "xyz"[axis], name, grouped(uint64_t(limit))));
+    }
     if (count.x && count.y && count.z) glDispatchCompute(count.x, count.y, count.z);
 }
 

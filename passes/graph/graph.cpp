@@ -4,9 +4,10 @@
 #include "core/log.h"
 #include "core/problem.h"
 #include "core/text.h"
-#include "gpu/capabilities.h"
+#include "gpu/device_memory.h"
 #include "graph/graph_overlay.h"
 #include "graph/plan_memory.h"
+#include "graph/plan_needs.h"
 #include "graph/shader_log.h"
 
 #include <algorithm>
@@ -107,25 +108,15 @@ void Graph::plan_again(const SceneFacts& facts, glm::ivec2 size) {
     ++plans_;
     Plan next = model_->plan(facts, size);
     check_plan_fits(*model_, facts, next, planned_ ? plan_.total_bytes() : 0);
-    allocations_.update(next);
+    try {
+        allocations_.update(next);
+    } catch (const OutOfDeviceMemory& problem) {
+        throw Error(out_of_memory_text(*model_, facts, next, problem.what()));
+    }
     neutrals_.clear(); // they are as large as what they stand for
     plan_ = std::move(next);
     planned_facts_ = facts;
     planned_ = true;
-}
-
-/// Formats of the images that a pass stores to, for layout(FORMAT_slot), and HAS_slot for optional slots that something
-/// fills: what would only feed a neutral value need not be compiled.
-Defines Graph::formats_of(const PlanPass& pass) const {
-    Defines formats;
-    for (const PlanSlot& slot : pass.slots) {
-        if (slot.use.optional && slot.resource >= 0) formats["HAS_" + slot_identifier(slot.use.slot)] = "1";
-        if (slot.use.usage != Usage::image) continue;
-        std::string format = "rgba16f";
-        if (slot.resource >= 0) format = plan_.resources[size_t(slot.resource)].declaration.format;
-        formats["FORMAT_" + slot_identifier(slot.use.slot)] = format;
-    }
-    return formats;
 }
 
 std::vector<std::string> Graph::check_interface(const PassNode& node, const PlanPass& pass,
@@ -186,7 +177,7 @@ static std::vector<std::string> texts(const std::vector<ShaderError>& errors) {
 void Graph::build_programs() {
     for (const PlanPass& pass : plan_.passes) {
         PassNode& node = *model_->nodes()[size_t(pass.node)];
-        model_->scan(node, formats_of(pass));
+        model_->scan(node, pass_defines(plan_, pass));
         for (const auto& program : node.programs) {
             if (!pass.runs(program->name())) continue;
             std::string text;
@@ -229,7 +220,11 @@ bool Graph::poll_files() {
             try {
                 Plan plan = next->plan(planned_facts_, plan_.size);
                 check_plan_fits(*next, planned_facts_, plan, plan_.total_bytes());
-                allocations_.update(plan);
+                try {
+                    allocations_.update(plan);
+                } catch (const OutOfDeviceMemory& problem) {
+                    throw Error(out_of_memory_text(*next, planned_facts_, plan, problem.what()));
+                }
                 plan_ = std::move(plan);
                 invalidation_.new_plan(*next, plan_);
             } catch (...) {

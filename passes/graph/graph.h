@@ -100,7 +100,6 @@ class Graph {
 
     void plan_again(const SceneFacts& facts, glm::ivec2 size);
     void build_programs();
-    Defines formats_of(const PlanPass& pass) const;
     std::vector<std::string> check_interface(const PassNode& node, const PlanPass& pass,
                                              const ProgramInterface& interface) const;
     bool needs_plan(const SceneFacts& facts, glm::ivec2 size);

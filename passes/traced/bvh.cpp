@@ -2,7 +2,7 @@
 // what moves changes; each frame then only ties the trees together anew.
 #include "core/error.h"
 #include "core/limits.h"
-#include "gpu/capabilities.h"
+#include "gpu/driver_limits.h"
 #include "graph/context.h"
 #include "traced/scene_trees.h"
 

@@ -264,7 +264,7 @@ class CommandLines(Hostile):
     }
 
     CHOICES = {
-        ("render", "cornell", "-o", "x.png"): ["--material-model", "--shader-limit"],
+        ("render", "cornell", "-o", "x.png"): ["--material-model", "--shader-limit", "--limits"],
         ("reference", "cornell", "-o", "x.exr"): ["--material-model", "--occlusion-falloff"],
         ("chart", "cornell", "-o", "c"): ["--material-model", "--shader-limit", "--metric"],
         ("stability", "cornell"): ["--material-model", "--shader-limit"],
@@ -305,6 +305,7 @@ class CommandLines(Hostile):
         self.refused(self.run_program("chart", "cornell", "-o", "c", "--metric", "relative_rmze"), "did you mean 'relative_rmse'?")
         self.refused(self.run_program("render", "cornell", "-o", "x.png", "--shader-limit", "privat_bytes=5"),
                      "did you mean 'private_bytes'?")
+        self.refused(self.run_program("graph", "direct", "--limits", "GL_MAX_IMAGE_UNIT=5"), "did you mean 'GL_MAX_IMAGE_UNITS'?")
         for command, name in (("completion", "shell"), ("list", "kind")):
             for value in ("", "bsh", "graph\n", "\x1b[31m", "x" * 5000):
                 with self.subTest(command=command, value=value):

@@ -11,7 +11,7 @@
 
 namespace bounce {
 
-inline const HeadlessContext& gpu_context() {
+inline HeadlessContext& gpu_context() {
     static HeadlessContext context = [] {
         want_call_watch();
         return HeadlessContext();
