@@ -175,6 +175,11 @@ void Session::render(bool whole) {
         graph_->prepare(facts_, size_);
         graph_->execute(inputs);
     }
+    if (context_is_lost()) {
+        const std::string& pass = graph_->lost_in();
+        throw ContextLost(fmt::format("{} while graph '{}' was rendered{}", to_string(context_reset()), options_.graph,
+                                      pass.empty() ? "" : ", in pass '" + pass + "'"));
+    }
     last_view_projection_ = c.view_projection;
     has_last_view_ = true;
     rendered_frame_ = frame_;
@@ -216,20 +221,16 @@ std::string Session::command_line(const std::string& output) const {
 }
 
 void Session::release_gpu() {
-    kept_values_ = graph_->model().values();
-    options_.check_nan = graph_->check_nan;
-    suspects_ = graph_->newest_program_files();
-    graph_.reset();
+    reset_ = context_reset();
+    graph_->release_gpu();
     gpu_scene_.reset();
 }
 
 void Session::restore_gpu() {
-    graph_ = make_graph(options_.graph);
-    graph_->model().adopt_values(kept_values_);
+    const uint64_t edits = edits_; // it is the same scene
     load_scene_to_gpu();
-    graph_->prepare(facts_, size_);
-    graph_->disable_programs(suspects_);
-    spdlog::warn("the GPU was reset; the program that was compiled last is disabled until it is edited");
+    edits_ = edits;
+    graph_->restore_gpu(reset_);
 }
 
 } // namespace bounce

@@ -72,9 +72,10 @@ class Session {
     glm::ivec2 size() const { return size_; }
     void resize(glm::ivec2 size);
 
-    /// Plans and renders the present frame. Throws Error only when there never was a good plan. `whole`: waits for what
-    /// the passes counted, and renders again with larger buffers as long as one was too small (the window shows a badge
-    /// instead, and has the room a frame later).
+    /// Plans and renders the present frame. Throws Error when there never was a good plan, and ContextLost when the GPU
+    /// was reset meanwhile: what was rendered is void then. `whole`: waits for what the passes counted, and renders
+    /// again with larger buffers as long as one was too small (the window shows a badge instead, and has the room a
+    /// frame later).
     void render(bool whole = false);
     /// Polls the watched files of graph and shaders. Returns true when something was reloaded.
     bool poll_files() { return graph_->poll_files(); }
@@ -92,9 +93,11 @@ class Session {
     /// The command that makes this picture without a window (a shot file must hold the camera when one was set).
     std::string command_line(const std::string& output) const;
 
-    /// After a GPU reset, with a new context current: everything on the GPU is made again, and the programs that were
-    /// compiled last stay disabled.
+    /// After a GPU reset: lets go of what is on the GPU. What a person sees and has set stays (shot and its edits,
+    /// camera, graph, values, switches, frame), and so does what is known to be wrong.
     void release_gpu();
+    /// With a new context current: everything on the GPU is made again; the program that is to blame stays disabled
+    /// (Graph::restore_gpu). Throws Error when it cannot be made; it may then be tried again, after release_gpu().
     void restore_gpu();
 
   private:
@@ -119,8 +122,7 @@ class Session {
     bool scene_dirty_ = true;
     uint64_t edits_ = 0;
 
-    GraphValues kept_values_; ///< while the GPU is lost
-    std::vector<std::filesystem::path> suspects_;
+    ResetCause reset_ = ResetCause::none; ///< while the GPU is lost
 };
 
 } // namespace bounce

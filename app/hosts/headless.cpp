@@ -61,6 +61,7 @@ HeadlessDevice describe_device(EGLDeviceEXT device, int index) {
 struct HeadlessContext::Egl {
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;
+    EGLDisplay last = EGL_NO_DISPLAY; ///< that was opened
 
     ~Egl() { close(); }
 
@@ -79,7 +80,7 @@ struct HeadlessContext::Egl {
         if (candidate == EGL_NO_DISPLAY) return "no display";
         EGLint major = 0, minor = 0;
         if (!eglInitialize(candidate, &major, &minor)) return "eglInitialize failed";
-        display = candidate;
+        display = last = candidate;
         eglBindAPI(EGL_OPENGL_API);
         for (bool robust : {true, false}) {
             std::vector<EGLint> attributes = {EGL_CONTEXT_MAJOR_VERSION,       4,
@@ -145,5 +146,12 @@ HeadlessContext::HeadlessContext(int wanted) : egl_(std::make_unique<Egl>()) {
 }
 
 HeadlessContext::~HeadlessContext() = default;
+
+void HeadlessContext::make_again() {
+    egl_->close();
+    if (const std::string why = egl_->open(egl_->last); !why.empty())
+        throw Error("no context could be made again: " + why);
+    capabilities_ = start_context();
+}
 
 } // namespace bounce

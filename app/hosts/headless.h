@@ -27,6 +27,9 @@ class HeadlessContext {
     HeadlessContext(const HeadlessContext&) = delete;
     HeadlessContext& operator=(const HeadlessContext&) = delete;
 
+    /// A new context in the place of this one, whose objects are gone. Throws Error.
+    void make_again();
+
     const Capabilities& capabilities() const { return capabilities_; }
 
   private:

@@ -30,6 +30,8 @@ struct Window::Native {
     std::vector<Release> released; ///< after a press: told to ImGui after the frame, or it would miss a short press
     bool fullscreen = false;
     glm::ivec2 windowed_position{0}, windowed_size{1280, 720};
+    glm::ivec2 again_size{1280, 720}; ///< while the window is being made again
+    bool again_maximized = false, again_fullscreen = false;
 };
 
 namespace {
@@ -222,15 +224,16 @@ void Window::shut() {
 }
 
 void Window::make_again() {
-    glm::ivec2 old_size = native_->fullscreen ? native_->windowed_size : size();
-    bool was_maximized = maximized();
-    shut();
-    native_->fullscreen = false;
-    open(old_size, was_maximized);
-}
-
-bool Window::gpu_was_reset() const {
-    return glGetGraphicsResetStatus() != GL_NO_ERROR;
+    Native& native = *native_;
+    if (native.handle) { // else it was tried before
+        native.again_size = native.fullscreen ? native.windowed_size : size();
+        native.again_maximized = maximized();
+        native.again_fullscreen = native.fullscreen;
+        shut();
+    }
+    native.fullscreen = false;
+    open(native.again_size, native.again_maximized);
+    if (native.again_fullscreen) toggle_fullscreen();
 }
 
 // --- events ----------------------------------------------------------------------------------------------------------
@@ -274,6 +277,7 @@ bool Window::take_scale_change() {
 // --- sizes -----------------------------------------------------------------------------------------------------------
 
 glm::ivec2 Window::size() const {
+    if (!native_->handle) return native_->again_size;
     glm::ivec2 size;
     glfwGetWindowSize(native_->handle, &size.x, &size.y);
     return size;
@@ -298,6 +302,7 @@ float Window::content_scale() const {
 }
 
 bool Window::maximized() const {
+    if (!native_->handle) return native_->again_maximized;
     return glfwGetWindowAttrib(native_->handle, GLFW_MAXIMIZED);
 }
 

@@ -63,9 +63,7 @@ class Window {
     void make_font_texture();
 
     // --- GPU resets ---
-    /// The context is lost: everything in it is void.
-    bool gpu_was_reset() const;
-    /// A new window and context in the place of the lost one. Throws Error.
+    /// A new window and context in the place of the lost one. Throws Error; it may then be tried again.
     void make_again();
 
     struct Native; ///< of window.cpp

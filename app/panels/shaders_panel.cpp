@@ -45,7 +45,7 @@ void draw_state(ProgramState state) {
         show_tooltip("There never was a good program: the pass is skipped, its colours are magenta.");
         break;
     case ProgramState::disabled:
-        show_text("disabled, hung the GPU", k_error_colour);
+        show_text("disabled after a GPU reset", k_error_colour);
         show_tooltip("It comes back when its text changes.");
         break;
     }

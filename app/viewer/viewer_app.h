@@ -77,7 +77,8 @@ class ViewerApp {
     double fitting_since_ = 0;
     int rendered_ = 0;
     bool reset_simulated_ = false;
-    std::string problems_; ///< as last told
+    int resets_ = 0, last_reset_ = 0; ///< of the GPU, soon after one another; rendered_ at the last
+    std::string problems_;            ///< as last told
 };
 
 } // namespace bounce

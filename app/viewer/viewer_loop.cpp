@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <fmt/format.h>
+#include <thread>
 #include <utility>
 
 namespace bounce {
@@ -24,7 +26,10 @@ double seconds_now() {
 
 constexpr double k_poll_interval = 0.2; ///< of watched files
 constexpr double k_settle_time = 0.15;  ///< of the viewport's size, before everything is allocated again
-constexpr size_t k_kept_frames = 240;   ///< of the history of frame times
+constexpr int k_max_resets = 5;         ///< of the GPU with fewer than so many frames between:
+constexpr int k_good_frames = 100;
+constexpr int k_max_attempts = 5;     ///< to make the window again
+constexpr size_t k_kept_frames = 240; ///< of the history of frame times
 
 /// Ctrl+C in the terminal closes the window as its button does, so that its state is kept.
 volatile std::sig_atomic_t asked_to_quit = 0;
@@ -41,8 +46,9 @@ void ViewerApp::run() {
     ui_.redraw();
     while (!window_->should_close() && !asked_to_quit && !finished()) {
         wait();
-        if (window_->gpu_was_reset() || (rendered_ == options_.simulate_reset && !reset_simulated_))
-            recover_from_reset();
+        if (rendered_ == options_.simulate_reset && !std::exchange(reset_simulated_, true))
+            pretend_reset(ResetCause::guilty);
+        if (context_is_lost()) recover_from_reset();
         attempt([&] { handle_events(); });
         double start = seconds_now();
         bool rendered = false;
@@ -210,10 +216,24 @@ void ViewerApp::tell_problems() {
     gui_frames_ = 4;
 }
 
+/// What the driver is doing after a reset may take it a while.
 void ViewerApp::recover_from_reset() {
-    reset_simulated_ = reset_simulated_ || rendered_ == options_.simulate_reset;
-    spdlog::warn("the GPU was reset: the window and everything on the GPU are made again");
-    make_gpu_again();
+    if (rendered_ - last_reset_ > k_good_frames) resets_ = 0;
+    last_reset_ = rendered_;
+    if (++resets_ > k_max_resets)
+        throw Error(fmt::format("the GPU was reset {} times in a row, whatever was disabled: the window is closed",
+                                k_max_resets));
+    spdlog::warn("{}: the window and everything on the GPU are made again", to_string(context_reset()));
+    for (int attempt = 1;; ++attempt) {
+        try {
+            make_gpu_again();
+            break;
+        } catch (const std::exception& problem) {
+            spdlog::error("{}", problem_text(problem));
+            if (attempt == k_max_attempts) throw;
+            std::this_thread::sleep_for(std::chrono::seconds(attempt));
+        }
+    }
     ui_.say("the GPU was reset, and everything on it was made again", true);
 }
 

@@ -27,9 +27,22 @@ void Program::destroy() {
     id_ = 0;
 }
 
-void Program::disable() {
+void Program::disable(std::string why) {
     destroy();
+    made_of_.clear();
     disabled_ = true;
+    up_to_date_ = false;
+    why_disabled_ = std::move(why);
+}
+
+void Program::release() {
+    if (!id_) made_of_.clear(); // nothing to be made again
+    destroy();
+}
+
+void Program::restore() {
+    const std::vector<ShaderSource> sources = made_of_;
+    if (!sources.empty()) make(sources, {}); // another driver may refuse it: then it is built as if for the first time
 }
 
 void Program::recall(std::vector<ShaderError> errors) {
@@ -186,10 +199,20 @@ bool Program::build(const std::function<std::vector<std::string>(const ProgramIn
         errors_ = check_shader_limits(source, folder_); // before the driver sees it
         if (!errors_.empty()) return false;
     }
+    errors_ = make(sources_, check);
+    if (!errors_.empty()) return false;
+    up_to_date_ = true;
+    disabled_ = false;
+    return true;
+}
+
+std::vector<ShaderError> Program::make(const std::vector<ShaderSource>& sources,
+                                       const std::function<std::vector<std::string>(const ProgramInterface&)>& check) {
+    std::vector<ShaderError> errors;
     GLuint program = glCreateProgram();
     std::vector<GLuint> shaders;
     bool compute = false;
-    for (const ShaderSource& source : sources_) {
+    for (const ShaderSource& source : sources) {
         ShaderStage stage = stage_of(source.files.front());
         compute = compute || stage == ShaderStage::compute;
         GLuint shader = glCreateShader(gl_stage(stage));
@@ -199,35 +222,35 @@ bool Program::build(const std::function<std::vector<std::string>(const ProgramIn
         GLint good = 0;
         glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
         if (!good) {
-            std::vector<ShaderError> errors = translate_log(shader_log(shader), source, folder_);
-            if (errors.empty())
-                errors.push_back({stages_[shaders.size()], 0, "", "does not compile (the driver does not say why)"});
-            errors_.insert(errors_.end(), errors.begin(), errors.end());
+            std::vector<ShaderError> found = translate_log(shader_log(shader), source, folder_);
+            if (found.empty())
+                found.push_back({stages_[shaders.size()], 0, "", "does not compile (the driver does not say why)"});
+            errors.insert(errors.end(), found.begin(), found.end());
         }
         glAttachShader(program, shader);
         shaders.push_back(shader);
     }
-    if (errors_.empty()) {
+    if (errors.empty()) {
         glLinkProgram(program);
         GLint good = 0;
         glGetProgramiv(program, GL_LINK_STATUS, &good);
-        if (!good) errors_ = translate_link_log(program_log(program), sources_, folder_);
+        if (!good) errors = translate_link_log(program_log(program), sources, folder_);
     }
     for (GLuint shader : shaders) {
         glDetachShader(program, shader);
         glDeleteShader(shader);
     }
     ProgramInterface found;
-    if (errors_.empty()) {
+    if (errors.empty()) {
         found = reflect(program, compute);
         if (check) {
             for (const std::string& problem : check(found))
-                errors_.push_back({stages_.front(), 0, "", problem});
+                errors.push_back({stages_.front(), 0, "", problem});
         }
     }
-    if (!errors_.empty()) {
+    if (!errors.empty()) {
         glDeleteProgram(program);
-        return false;
+        return errors;
     }
     destroy();
     id_ = program;
@@ -235,20 +258,19 @@ bool Program::build(const std::function<std::vector<std::string>(const ProgramIn
     glObjectLabel(GL_PROGRAM, id_, -1, name_.c_str());
     interface_ = std::move(found);
     Digest text;
-    for (const ShaderSource& source : sources_)
+    for (const ShaderSource& source : sources)
         text.add(source.text);
     text_digest_ = text.value();
-    up_to_date_ = true;
-    disabled_ = false;
     order_problems_.clear();
     if (calls_are_watched()) {
-        for (const ShaderSource& source : sources_)
+        for (const ShaderSource& source : sources)
             for (std::string& problem : bounce::order_problems(source))
                 order_problems_.push_back(std::move(problem));
         for (const std::string& problem : order_problems_)
             spdlog::warn("order: {}", problem);
     }
-    return true;
+    made_of_ = sources;
+    return {};
 }
 
 static bool scalar_type(GLenum type) {

@@ -55,8 +55,8 @@ class Program {
     bool build(const std::function<std::vector<std::string>(const ProgramInterface&)>& check);
 
     const std::string& name() const { return name_; }
-    bool usable() const { return id_ != 0; }        ///< a good program is there (perhaps an older one)
-    bool disabled() const { return disabled_; }     ///< by disable(), until the next successful build
+    bool usable() const { return id_ != 0; } ///< a good program is there (perhaps an older one)
+    bool disabled() const { return disabled_; }
     bool up_to_date() const { return up_to_date_; } ///< and it is the newest text
     GLuint id() const { return id_; }
     /// Of the text that id() was made of; 0: there is none.
@@ -72,16 +72,28 @@ class Program {
     const std::vector<std::filesystem::path>& stages() const { return stages_; }
     /// Takes up what an earlier build() of this same text came to, without asking the driver again.
     void recall(std::vector<ShaderError> errors);
-    /// Lets go of the program after it hung the GPU; it comes back when its text changes.
-    void disable();
+    /// Lets go of the program after it hung the GPU, until enable() or a change of its text; `why`: "the GPU was reset
+    /// while …".
+    void disable(std::string why);
+    void enable() { disabled_ = false; }
+    const std::string& why_disabled() const { return why_disabled_; }
+    /// Before the context goes: lets go of the OpenGL program, and keeps the text that it was made of.
+    void release();
+    /// In another context: makes the program again that release() let go of, if there was one. errors() stay those of
+    /// the newest text.
+    void restore();
 
   private:
     void destroy();
+    /// Compiles and links `sources`; on success the program becomes this one's. Returns what is wrong.
+    std::vector<ShaderError> make(const std::vector<ShaderSource>& sources,
+                                  const std::function<std::vector<std::string>(const ProgramInterface&)>& check);
 
     std::string name_;
     std::vector<std::filesystem::path> stages_;
     std::filesystem::path folder_;
     std::vector<ShaderSource> sources_;
+    std::vector<ShaderSource> made_of_; ///< the text of id_
     std::vector<std::filesystem::path> files_;
     std::vector<ParameterInfo> parameters_;
     std::vector<ShaderSlot> slots_;
@@ -95,6 +107,7 @@ class Program {
     bool up_to_date_ = false;
     bool read_once_ = false; ///< all files have been read without an error at some time
     bool disabled_ = false;
+    std::string why_disabled_;
 };
 
 /// Sets one uniform from a parameter's value, converting between int, uint, bool and float as the uniform's type asks.

@@ -57,6 +57,7 @@ void Graph::execute(const FrameInputs& inputs) {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glUseProgram(0);
     inputs_ = nullptr;
+    watched_frames_ = std::max(watched_frames_ - 1, 0);
     ++frames_;
 }
 
@@ -76,6 +77,7 @@ void Graph::run_loop(size_t first, size_t last) {
 }
 
 void Graph::run_pass(size_t index, int from, int to) {
+    if (!lost_in_.empty()) return; // nothing can run any more
     const PlanPass& pass = plan_.passes[index];
     bool first = from == pass.repeat_from, last = to >= pass.repeat_to;
     if (!invalidation_.runs(index)) {
@@ -116,6 +118,10 @@ void Graph::run_pass(size_t index, int from, int to) {
         fill_failed(pass);
     }
     timings_.end(pass.id, step);
+    if (watched_frames_ > 0) {
+        glFinish();
+        if (context_is_lost()) lost_in_ = pass.id;
+    }
     if (last) invalidation_.ran(index, *model_, plan_, allocations_, *inputs_, whole);
     if (check_nan) look_for_nan(pass);
 }

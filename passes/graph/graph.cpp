@@ -18,20 +18,25 @@
 namespace bounce {
 
 Graph::Graph(const std::filesystem::path& file, TimerMode timer_mode)
-    : model_(std::make_unique<GraphModel>(read_graph_file(file))), timings_(timer_mode),
-      empty_buffer_(1024, nullptr, "nothing"),
-      comparison_sampler_(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, "depth comparison"),
-      empty_vertex_array_("no attributes") {
+    : model_(std::make_unique<GraphModel>(read_graph_file(file))), timer_mode_(timer_mode), timings_(timer_mode) {
 #ifdef BOUNCE_DEBUG
     check_nan = true;
 #endif
-    glSamplerParameteri(comparison_sampler_.id(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-    glSamplerParameteri(comparison_sampler_.id(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-    empty_buffer_.clear();
+    make_objects();
     watch();
 }
 
 Graph::~Graph() = default;
+
+/// What every graph has of its own, whatever its plan.
+void Graph::make_objects() {
+    empty_buffer_ = Buffer(1024, nullptr, "nothing");
+    empty_buffer_.clear();
+    comparison_sampler_ = Sampler(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, "depth comparison");
+    glSamplerParameteri(comparison_sampler_.id(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    glSamplerParameteri(comparison_sampler_.id(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    empty_vertex_array_ = VertexArray("no attributes");
+}
 
 void Graph::watch() {
     std::vector<std::filesystem::path> files = model_->files();
@@ -71,6 +76,13 @@ static std::vector<bool> switches_of(const GraphModel& model) {
 bool Graph::needs_plan(const SceneFacts& facts, glm::ivec2 size) {
     bool needed = std::exchange(dirty_, false);
     for (const std::string& name : model_->take_changes()) {
+        // What hung with the old value may do with the new one.
+        if (PassNode* node = model_->find_node(name.substr(0, name.find('.')))) {
+            for (const auto& program : node->programs) {
+                needed = needed || program->disabled();
+                program->enable();
+            }
+        }
         const Parameter* set = model_->find_parameter(name);
         // In C++ a parameter may shape what a pass declares; a static one, which slots its shader has.
         bool plain = set && set->info.in_shader && !set->info.is_static && !plan_.numbers.contains(name);
@@ -191,7 +203,10 @@ void Graph::build_programs() {
                 continue;
             }
             bool good = program->build([&](const ProgramInterface& i) { return check_interface(node, pass, i); });
-            if (good) newest_files_ = program->files();
+            if (good && frames_ > 0) {
+                edited_files_ = program->files();
+                watched_frames_ = std::max(watched_frames_, 1); // its first
+            }
             bool told = built.text == text && texts(built.errors) == texts(program->errors());
             for (const ShaderError& error : program->errors())
                 if (!told && shader_errors_logged()) spdlog::error("shader: {}", error.text());
@@ -256,24 +271,6 @@ bool Graph::poll_files() {
     return true;
 }
 
-std::vector<std::filesystem::path> Graph::newest_program_files() const {
-    return newest_files_;
-}
-
-void Graph::disable_programs(const std::vector<std::filesystem::path>& files) {
-    for (const auto& node : model_->nodes()) {
-        for (const auto& program : node->programs) {
-            if (program->files() != files) continue;
-            program->disable();
-            std::string text;
-            for (const ShaderSource& source : program->sources())
-                text += source.text + '\0';
-            built_[node->id() + "/" + program->name()] = {text, {}};
-        }
-    }
-    if (planned_) invalidation_.new_plan(*model_, plan_);
-}
-
 std::vector<GraphProblem> Graph::problems() const {
     std::vector<GraphProblem> problems;
     auto graph_problem = [&](const std::string& text) {
@@ -286,9 +283,10 @@ std::vector<GraphProblem> Graph::problems() const {
     for (const auto& node : model_->nodes()) {
         for (const auto& program : node->programs) {
             if (program->disabled()) {
-                problems.push_back(
-                    {"pass " + node->id(),
-                     {program->stages().front(), 0, "", "disabled: it hung the GPU; edit it to try again"}});
+                problems.push_back({"pass " + node->id(),
+                                    {program->stages().front(), 0, "",
+                                     fmt::format("disabled: {}; edit it, or set a parameter of the pass, to try again",
+                                                 program->why_disabled())}});
             }
             for (const ShaderError& error : program->errors())
                 problems.push_back({"pass " + node->id(), error});

@@ -2,6 +2,7 @@
 // A running graph: its plan, its OpenGL objects, reloads that never cost the running picture.
 
 #include "core/file_watch.h"
+#include "gpu/context_loss.h"
 #include "gpu/timer.h"
 #include "graph/allocations.h"
 #include "graph/context.h"
@@ -59,9 +60,16 @@ class Graph {
     void reset_history() { invalidation_.cut(); }
     /// What "rebuild" is unless a person sets it; stays when the graph file is reloaded.
     void set_default_rebuild(Rebuild rebuild);
-    /// After a GPU reset: disables the programs that were compiled last, which hung it.
-    std::vector<std::filesystem::path> newest_program_files() const;
-    void disable_programs(const std::vector<std::filesystem::path>& files);
+    /// Before the context goes, or after it was lost: lets go of all that is in it. The plan, parameters, problems and
+    /// the text of the programs that ran stay.
+    void release_gpu();
+    /// With another context current: makes it again. Of a reset that `cause` tells of, the pass that was running is
+    /// disabled where it is known, and else the program that was compiled last because of an edit, unless another program was
+    /// to blame. The
+    /// next frames are watched pass by pass, so that a second reset names its pass. Throws Error when it does not fit.
+    void restore_gpu(ResetCause cause);
+    /// The pass in which the context was lost; empty: not lost, or not known.
+    const std::string& lost_in() const { return lost_in_; }
 
     /// Every problem at present: the graph file's, the plan's, each shader's.
     std::vector<GraphProblem> problems() const;
@@ -98,8 +106,10 @@ class Graph {
         bool read = true; ///< false: the errors are of reading the files, and say nothing of the text
     };
 
+    void make_objects();
     void plan_again(const SceneFacts& facts, glm::ivec2 size);
     void build_programs();
+    void disable_programs(const std::vector<std::filesystem::path>& files, const std::string& why);
     std::vector<std::string> check_interface(const PassNode& node, const PlanPass& pass,
                                              const ProgramInterface& interface) const;
     bool needs_plan(const SceneFacts& facts, glm::ivec2 size);
@@ -121,13 +131,16 @@ class Graph {
     Rebuild default_rebuild_ = Rebuild::every_frame;
     Invalidation invalidation_;
     bool needs_larger_buffers_ = false; ///< a pass wants larger buffers than this plan gives
+    TimerMode timer_mode_;
     Timings timings_;
     Allocations allocations_;
     Counters counters_;
     FileWatch watch_;
-    std::map<std::string, Built> built_;       ///< per "id/program"
-    std::map<std::string, std::string> broke_; ///< pass id → why it could not run in the newest frame
-    std::vector<std::filesystem::path> newest_files_;
+    std::map<std::string, Built> built_;              ///< per "id/program"
+    std::map<std::string, std::string> broke_;        ///< pass id → why it could not run in the newest frame
+    std::vector<std::filesystem::path> edited_files_; ///< of the program that was edited last
+    std::string lost_in_;
+    int watched_frames_ = 0; ///< in which each pass is waited for, and asked whether the context was lost in it
     std::string file_problem_, plan_problem_;
     std::vector<std::filesystem::path> broken_chain_; ///< the files of a graph that could not be reloaded
     SceneFacts planned_facts_;

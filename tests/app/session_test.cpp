@@ -120,50 +120,6 @@ TEST_F(SessionTest, TheCommandLineMakesThePictureAgain) {
                       HasSubstr("-o x.png")));
 }
 
-TEST_F(SessionTest, AfterAResetOfTheGpuEverythingIsMadeAgain) {
-    SessionOptions given = options();
-    Session session(given);
-    session.set_parameter("tonemap.exposure", "1", ParameterOrigin::panel);
-    session.render();
-    std::vector<float> before = picture(session);
-    session.release_gpu();
-    EXPECT_EQ(live_objects().textures, 0);
-    session.restore_gpu();
-    session.render();
-    EXPECT_FALSE(session.graph().problems().empty()) << "the program that was compiled last is disabled";
-    root.edit("glsl/surface/tonemap.comp", "void main()", "// edited\nvoid main()");
-    session.poll_files();
-    session.render();
-    for (const GraphProblem& problem : session.graph().problems())
-        ADD_FAILURE() << problem.error.text();
-    EXPECT_EQ(picture(session), before);
-    EXPECT_EQ(session.graph().model().parameter("tonemap.exposure").value, ParameterValue(1.0f));
-}
-
-/// Values and switches that differ from the graph's file only in who set them, too.
-TEST_F(SessionTest, AfterAResetOfTheGpuNothingThatAPersonSetIsLost) {
-    root.write("assets/graphs/direct.json", R"({"version":1,"extends":"base/surface",
-        "passes":[{"id":"gbuffer","params":{"cull_back_faces":true}}]})");
-    Session session(options());
-    session.set_parameter("gbuffer.cull_back_faces", "false", ParameterOrigin::panel); // its default, not the graph's
-    session.set_parameter("graph.rebuild", "on_change", ParameterOrigin::panel);
-    session.graph().model().switch_pass("direct", false);
-    session.graph().check_nan = true;
-    session.render();
-    std::string line = session.command_line("x.png");
-    EXPECT_THAT(line, AllOf(HasSubstr("--set gbuffer.cull_back_faces=false"), HasSubstr("--disable direct")));
-    std::vector<float> before = picture(session);
-    session.release_gpu();
-    session.restore_gpu();
-    EXPECT_EQ(session.command_line("x.png"), line);
-    EXPECT_TRUE(session.graph().check_nan);
-    for (const char* file : {"tonemap.comp", "compose.comp", "gbuffer.frag"}) // one of them was compiled last
-        root.edit(std::string("glsl/surface/") + file, "void main()", "// edited\nvoid main()");
-    session.poll_files();
-    session.render();
-    EXPECT_EQ(picture(session), before);
-}
-
 TEST_F(SessionTest, MetadataAndTimings) {
     Session session(options());
     session.render();

@@ -364,6 +364,39 @@ class Window(ProgramTest):
         self.assertEqual(self.state()["parameters"]["tonemap.exposure"], "1")
         self.assertTrue(png_pixel(self.out / "last.png", 5, 5))
 
+    def test_a_gpu_reset_while_a_person_works(self):
+        """Camera, edited light, values, switches and the picture are there again; the edited program is disabled, and says why."""
+        self.open(self.shot, *SMALL, "--size", "%dx%d" % PICTURE, "--disable", "shadow_maps", "--simulate-reset", "120")
+        self.drag("tonemap.exposure", 0.5, 0.6)
+        self.drag("light.0.outer_cone", 0.5, 0.3)
+        camera = self.state()["camera"]
+        self.drag("viewport", 0.5, 0.55)
+        self.wait(lambda state: state["camera"] != camera, "another camera")
+        before = self.capture()
+        self.edit("glsl/surface/tonemap.comp", "void main()", "// edited\nvoid main()")
+        self.wait(lambda state: "compiled" in self.said(), "the edited program")
+        kept = self.state()
+        self.assertIsNone(self.window.poll())
+        self.assertNotIn("reset", self.said(), "it came too early for this test")
+
+        self.input("key", "c")  # continuously
+        state = self.wait(lambda state: state["problems"], "the reset")
+        self.input("key", "c")
+        self.assertIn("the GPU was reset because of what this program did", self.said())
+        self.assertRegex(state["problems"][0], r"pass tonemap: .*tonemap\.comp: disabled: the GPU was reset, and it was compiled last")
+        for name in ("camera", "parameters", "undo", "shot", "graph", "size", "frame"):
+            self.assertEqual(state[name], kept[name], name)
+        self.edit("glsl/surface/tonemap.comp", "// edited", "// again")
+        self.wait(lambda state: not state["problems"], "the edit that tries it again")
+        after = self.capture()
+        for x, y in ((10, 10), (48, 32), (70, 50)):
+            self.assertEqual(png_pixel(after, x, y), png_pixel(before, x, y))
+        self.input("key", "ctrl+z")  # what was done before can be undone
+        self.wait(lambda state: state["undo"] != kept["undo"] or state["camera"] != kept["camera"], "undo")
+        self.input("key", "ctrl+q")
+        self.wait_for_exit()
+        self.assertNotIn("[error]", self.said())
+
     def test_without_a_display(self):
         environment = self.environment()
         del environment["DISPLAY"]

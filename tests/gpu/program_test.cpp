@@ -62,9 +62,21 @@ TEST_F(Programs, TheLastGoodOneStays) {
     }()) << "the check of the interface may refuse it";
     EXPECT_THAT(program.errors().at(0).message, HasSubstr("not like this"));
     EXPECT_TRUE(program.usable());
-    program.disable();
+
+    program.release();
+    EXPECT_FALSE(program.usable());
+    program.restore();
+    EXPECT_TRUE(program.usable()) << "the last good text, though the newest is refused";
+    EXPECT_EQ(program.interface().local_size.x, 8);
+    EXPECT_THAT(program.errors().at(0).message, HasSubstr("not like this"));
+
+    program.disable("it hung");
     EXPECT_FALSE(program.usable());
     EXPECT_TRUE(program.disabled());
+    EXPECT_EQ(program.why_disabled(), "it hung");
+    program.release();
+    program.restore();
+    EXPECT_FALSE(program.usable()) << "what hung is not made again";
 }
 
 /// An error in an include behind a hoisted extension and injected defines: the driver's line is that of the flat text.

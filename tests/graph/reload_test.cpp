@@ -322,10 +322,14 @@ TEST_F(Reload, AProgramThatHungTheGpuStaysDisabledUntilItIsEdited) {
     fill_shader("fill.comp", "a_image", "2");
     GraphRunner run(graph_file(k_graph));
     run.frame();
-    run.graph.disable_programs(run.graph.newest_program_files());
+    fill_shader("fill.comp", "a_image", "4");
+    next(run);
+    EXPECT_EQ(red(run), 4);
+    run.graph.release_gpu();
+    run.graph.restore_gpu(ResetCause::guilty);
     run.frame();
     EXPECT_EQ(run.read("a.image")[1], 0) << "magenta";
-    EXPECT_THAT(run.problems(), HasSubstr("it hung the GPU"));
+    EXPECT_THAT(run.problems(), HasSubstr("disabled: the GPU was reset, and it was compiled last"));
     run.graph.touch();
     run.frame();
     EXPECT_EQ(run.read("a.image")[1], 0) << "a new plan does not bring it back";
