@@ -148,8 +148,7 @@ ShaderNeeds read_needs(const std::string& text, ShaderStage stage) {
         for (const GlslVariable& variable : outline.variables)
             if (reached.has(variable.name)) add_variable(variable, needs);
         for (const GlslBlock& block : outline.blocks) {
-            if (std::none_of(block.means.begin(), block.means.end(), [&](auto name) { return reached.has(name); }))
-                continue;
+            // All blocks but packed ones are active, used or not (OpenGL 4.6, §7.6).
             if (block.storage == GlslStorage::buffer) needs.storage_blocks.emplace_back(block.name);
             if (block.storage != GlslStorage::uniform) continue;
             needs.uniform_blocks.emplace_back(block.name);

@@ -1,7 +1,7 @@
 #pragma once
 // What a shader asks of the driver's limits, read from its expanded text before anything is compiled. Counted is what
-// the functions that main reaches name, branches aside that constants rule out: no driver counts more, some count less
-// (they see through more). No OpenGL calls.
+// the functions that main reaches name, branches aside that constants rule out, and every block: no driver counts more,
+// some count less (they see through more). No OpenGL calls.
 
 #include "gpu/shader_source.h"
 
