@@ -2,6 +2,9 @@
 #define TRACED_ALPHA_GLSL
 // Whether a triangle is there where a ray met it.
 #include "traced/hit.glsl"
+#ifdef HAS_traced_alpha
+#include "traced/scene.glsl"
+#endif
 
 uniform usampler2D traced_alpha; //! optional
 

@@ -1,15 +1,7 @@
 #ifndef TRACED_HIT_GLSL
 #define TRACED_HIT_GLSL
-// What a ray met, and the scene's buffers that tell more of it.
-#define SCENE_DRAWS
-#define SCENE_MATERIALS
-#define SCENE_GEOMETRY
-#ifndef WITHOUT_LIGHTS // of whom a storage block less is asked
-#define SCENE_LIGHTS   // for those who include this: lib/scene.glsl is read once
-#endif
-#include "lib/scene.glsl"
-#include "lib/scene_textures.glsl"
-#include "lib/coverage.glsl"
+// What a ray met. traced/scene.glsl has the buffers that tell more of it.
+#include "lib/hash.glsl" // of rays, for blended surfaces
 
 const uint k_nothing = 0xffffffffu;
 

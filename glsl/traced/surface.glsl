@@ -3,6 +3,7 @@
 // The surface where a ray hit, seen from the ray's side.
 #include "lib/material_model.glsl"
 #include "traced/hit.glsl"
+#include "traced/scene.glsl"
 
 struct TracedSurface {
     vec3 position;
