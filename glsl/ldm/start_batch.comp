@@ -1,4 +1,5 @@
 // Before the maps of a batch: empties the lists of all its texels, and takes back the marks of build.comp.
+#define WITHOUT_LDM_VIEWS
 #include "ldm/views.glsl"
 
 layout(local_size_x = 256) in;

@@ -27,7 +27,9 @@ struct LdmInfo {
     int arrays;     // 1: ldm.arrays holds the depths in order, without links
 };
 
+#ifndef WITHOUT_LDM_VIEWS
 layout(std430) readonly buffer ldm_views { LdmView views[]; };
+#endif
 layout(std430) readonly buffer ldm_info { LdmInfo ldm; };
 
 // Maps of a batch.

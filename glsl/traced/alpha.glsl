@@ -3,7 +3,11 @@
 // Whether a triangle is there where a ray met it.
 #include "traced/hit.glsl"
 #ifdef HAS_traced_alpha
-#include "traced/scene.glsl"
+#define SCENE_DRAWS
+#define SCENE_MATERIALS
+#include "lib/scene.glsl" // who needs more of the scene has included traced/scene.glsl before
+#include "lib/scene_textures.glsl"
+#include "lib/coverage.glsl"
 #endif
 
 uniform usampler2D traced_alpha; //! optional

@@ -130,7 +130,7 @@ LightSample draw_sky(float choice, vec2 u) {
 #endif
 
 // What is not there is never drawn.
-#ifndef HAS_traced_emitters
+#if !defined(HAS_traced_emitters) || !defined(HAS_traced_light_tables)
 bool any_emitters() {
     return false;
 }
