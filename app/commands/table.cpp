@@ -13,6 +13,7 @@
 #include "core/image.h"
 #include "core/limits.h"
 #include "gpu/shader_limits.h"
+#include "gpu/timer.h"
 
 #include <fmt/format.h>
 
@@ -21,7 +22,7 @@ namespace bounce {
 namespace {
 struct TableArguments {
     std::string table, size, output;
-    int warm_up = 2, frames = 5, device = -1;
+    int warm_up = 2, frames = 5, seconds = 0, device = -1;
 };
 
 std::string measured_errors(const TableArguments& arguments, const std::filesystem::path& path) {
@@ -45,11 +46,19 @@ std::string measured_costs(const TableArguments& arguments) {
     std::optional<glm::ivec2> size = shared.options().size;
     HeadlessContext context(arguments.device);
     std::vector<CostTableMeasured> measured;
+    const double start = steady_seconds();
+    std::string left_out;
     for (const CostTableColumn& column : file.columns) {
+        if (arguments.seconds > 0 && !measured.empty() && steady_seconds() - start > arguments.seconds) {
+            left_out += (left_out.empty() ? "" : "; ") + column.name;
+            continue;
+        }
         print_error("{} …\n", column.name);
         measured.push_back(measure_column(file, column, size, arguments.warm_up, arguments.frames));
     }
-    return origin_head({origin_here()}) + "\n" + cost_table_markdown(file, measured);
+    file.columns.resize(measured.size());
+    if (!left_out.empty()) left_out = fmt::format("\nLeft out after {} s: {}.\n", arguments.seconds, left_out);
+    return origin_head({origin_here()}) + "\n" + cost_table_markdown(file, measured) + left_out;
 }
 
 /// What nothing has to be measured for.
@@ -95,6 +104,8 @@ void add_table_command(CLI::App& app, CommandFunction& chosen) {
     command->add_option("--frames", arguments->frames, "frames that are measured")
         ->check(whole_between(1, 10000))
         ->capture_default_str();
+    command->add_option("--seconds", arguments->seconds, "begin no further column of a table of costs after so long")
+        ->check(whole_between(1, 100000));
     command->add_option("-o,--output", arguments->output, "write to this .md instead of the terminal")
         ->type_name("FILE")
         ->check(not_empty());

@@ -13,9 +13,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <fmt/format.h>
 #include <glad/gl.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace bounce {
 
@@ -59,6 +61,36 @@ std::vector<CostTableRow> rows_of(const ordered_json& json, const char* table, c
     return rows;
 }
 
+std::optional<glm::ivec2> size_at(const ordered_json& entry, const std::string& where, ErrorList& errors) {
+    if (!entry.contains("size")) return std::nullopt;
+    const ordered_json& size = entry["size"];
+    auto is_side = [](const ordered_json& side) {
+        return side.is_number_integer() && side.get<int64_t>() >= 1 && side.get<int64_t>() <= 16384;
+    };
+    if (size.is_array() && size.size() == 2 && is_side(size[0]) && is_side(size[1]))
+        return glm::ivec2(size[0].get<int>(), size[1].get<int>());
+    errors.add(where + ", size: expected [width, height], each from 1 to 16384");
+    return std::nullopt;
+}
+
+/// Processor time of the thread that draws, seconds.
+double thread_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+/// Bytes of all that a pass reads and writes, each once.
+double bytes_touched(const Plan& plan, const PlanPass& pass) {
+    std::set<int> resources;
+    for (const PlanSlot& slot : pass.slots)
+        if (slot.resource >= 0) resources.insert(slot.resource);
+    double bytes = 0;
+    for (int resource : resources)
+        bytes += double(plan.resources[size_t(resource)].total_bytes());
+    return bytes;
+}
+
 bool rebuilds_on_change(const CostTableColumn& column) {
     return std::any_of(column.sets.begin(), column.sets.end(),
                        [](auto& set) { return set.first == "graph.rebuild" && set.second == "on_change"; });
@@ -86,11 +118,12 @@ CostTableFile load_cost_table(const std::string& name) {
             errors.add(where + ": a column is {\"name\": …, \"shot\": …, \"set\": {…}}");
             continue;
         }
-        check_keys(entry, where, {"name", "shot", "graph", "set"}, errors);
+        check_keys(entry, where, {"name", "shot", "graph", "size", "set"}, errors);
         column.name = text_at(entry, "name", where, errors, true);
         column.shot = text_at(entry, "shot", where, errors, true);
         column.graph = entry.contains("graph") ? text_at(entry, "graph", where, errors, true) : graph;
         if (column.graph.empty()) errors.add(where + ": neither the column nor the table names a graph");
+        column.size = size_at(entry, where, errors);
         column.sets = sets_at(entry, where, errors);
         file.columns.push_back(column);
     }
@@ -116,19 +149,25 @@ CostTableMeasured measure_column(const CostTableFile& file, const CostTableColum
     options.shot = column.shot;
     options.graph = column.graph;
     options.sets = column.sets;
-    options.size = size;
+    options.size = size ? size : column.size;
     set_shader_errors_logged(false);
     Session session(options);
     throw_if_broken(session, "nothing was measured");
+    double started = 0;
     for (int frame = 0; frame < warm_up + frames; ++frame) {
         if (frame > 0) session.advance();
-        if (frame == warm_up) session.graph().forget_timings();
+        if (frame == warm_up) {
+            session.graph().forget_timings();
+            started = thread_seconds();
+        }
         session.render(true);
     }
+    const double thread_ms = 1e3 * (thread_seconds() - started) / frames;
     session.graph().finish_timings();
     throw_if_broken(session, "nothing was measured");
 
     CostTableMeasured measured;
+    measured.thread_ms = thread_ms;
     const Plan& plan = session.graph().plan();
     for (const CostTableRow& row : file.memory) {
         std::optional<double> sum;
@@ -141,14 +180,18 @@ CostTableMeasured measure_column(const CostTableFile& file, const CostTableColum
     }
     for (const CostTableRow& row : file.time) {
         std::optional<double> sum;
+        double bytes = 0;
         bool on_change = session.graph().model().rebuild() == Rebuild::on_change;
         for (const PlanPass& pass : plan.passes) {
             bool asked = std::any_of(row.parts.begin(), row.parts.end(),
                                      [&](const std::string& id) { return id == "*" || id == pass.id; });
             PassTiming timing = session.graph().timing(pass.id);
-            if (asked) sum = sum.value_or(0) + (on_change ? timing.per_frame : timing.median);
+            if (!asked) continue;
+            sum = sum.value_or(0) + (on_change ? timing.per_frame : timing.median);
+            bytes += bytes_touched(plan, pass);
         }
         measured.time_ms.push_back(sum);
+        measured.gb_per_s.push_back(sum && *sum > 0 ? std::optional(1e-6 * bytes / *sum) : std::nullopt);
         if (row.counted) measured.total_ms += sum.value_or(0);
     }
     for (const CostTableRow& row : file.counts) {
@@ -177,7 +220,7 @@ CostTableMeasured measure_column(const CostTableFile& file, const CostTableColum
 std::string cost_table_markdown(const CostTableFile& file, const std::vector<CostTableMeasured>& measured) {
     std::string out;
     auto table = [&](const std::vector<CostTableRow>& rows, const char* unit, auto values, auto total,
-                     bool with_total = true) {
+                     bool with_total = true, bool with_published = true) {
         if (rows.empty()) return;
         out += fmt::format("| {} |", unit);
         std::string rule = "| --- |";
@@ -193,7 +236,7 @@ std::string cost_table_markdown(const CostTableFile& file, const std::vector<Cos
                 std::optional<double> value = values(measured[c])[r];
                 out += value ? fmt::format(" {:.1f}", *value) : " not run";
                 auto published = rows[r].published.find(file.columns[c].name);
-                if (published != rows[r].published.end()) {
+                if (with_published && published != rows[r].published.end()) {
                     out += fmt::format(" [{:.1f}]", published->second);
                     if (rows[r].counted) published_total[c] += published->second;
                 }
@@ -217,6 +260,18 @@ std::string cost_table_markdown(const CostTableFile& file, const std::vector<Cos
         file.memory, "MB (10⁶ bytes)", [](auto& m) { return m.memory_mb; }, [](auto& m) { return m.total_mb; });
     table(
         file.time, "ms", [](auto& m) { return m.time_ms; }, [](auto& m) { return m.total_ms; });
+    if (!file.time.empty()) {
+        table(
+            file.time, "GB/s", [](auto& m) { return m.gb_per_s; }, [](auto&) { return 0.0; }, false, false);
+        out += "| a frame |";
+        std::string rule = "\n| --- |", values = "\n| Processor ms of the thread that draws |";
+        for (size_t c = 0; c < measured.size(); ++c) {
+            out += " " + markdown_cell(file.columns[c].name) + " |";
+            rule += " ---: |";
+            values += fmt::format(" {:.2f} |", measured[c].thread_ms);
+        }
+        out += rule + values + "\n\n";
+    }
     table(
         file.counts, "counted", [](auto& m) { return m.counts; }, [](auto&) { return 0.0; }, false);
     if (file.error_samples > 0) {
@@ -243,6 +298,8 @@ std::string cost_table_markdown(const CostTableFile& file, const std::vector<Cos
                                  "graph.rebuild=on_change, as means over the frames, in: " +
                                      join(columns, "; ") + ".\n";
     }
+    if (!file.time.empty())
+        out += "GB/s: as if each pass moved all of each of its textures and buffers once (10⁹ bytes).\n";
     if (std::getenv("BOUNCE_CPU_TIME")) out += "Times are processor time of all threads together.\n";
     if (!file.published_by.empty()) out += "In brackets: " + file.published_by + ".\n";
     return out;

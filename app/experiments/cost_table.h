@@ -2,9 +2,9 @@
 // Tables of memory and time in the form of a paper's: passes and resources grouped into its stages and structures,
 // shots and settings as its columns, and its own figures beside ours.
 //   { "about": "…", "graph": "lrsm",
-//     "columns": [{"name": "Sponza", "shot": "sponza", "set": {"occlusion_voxels.resolution": 512}}],
-//     "memory":  [{"name": "Occlusion voxels", "resources": ["voxels.occlusion"], "published": {"Sponza": 156.4}}],
-//     "time":    [{"name": "Voxelization", "passes": ["occlusion_voxels"], "published": {"Sponza": 5.3}}],
+//     "columns": [{"name": "Sponza", "shot": "sponza", "size": [1280, 720], "set": {"occlusion_voxels.resolution":
+//     512}}], "memory":  [{"name": "Occlusion voxels", "resources": ["voxels.occlusion"], "published": {"Sponza":
+//     156.4}}], "time":    [{"name": "Voxelization", "passes": ["occlusion_voxels"], "published": {"Sponza": 5.3}}],
 //                "passes": ["*"] is the whole frame
 //     "counts":  [{"name": "Lists in all, MB", "counters": ["fragments of all maps"], "times": 8e-6, "published":
 //     {…}}], "errors":  {"samples": 256, "metrics": ["bias"]},   against the reference of each column's transport, if
@@ -24,6 +24,7 @@ namespace bounce {
 
 struct CostTableColumn {
     std::string name, shot, graph;
+    std::optional<glm::ivec2> size; ///< instead of the shot's
     ParameterValues sets;
 };
 
@@ -50,6 +51,8 @@ CostTableFile load_cost_table(const std::string& name);
 /// What one column measured: 10⁶ bytes and milliseconds by row; none where no part of the row ran.
 struct CostTableMeasured {
     std::vector<std::optional<double>> memory_mb, time_ms, counts;
+    std::vector<std::optional<double>> gb_per_s; ///< of the rows of time, if each pass moves each of its resources once
+    double thread_ms = 0; ///< processor time of the thread that draws, a frame: Bounce and the driver's share in it
     MetricValues errors;
     bool absolute = false;             ///< only occlusion is compared: errors are told in AO units
     double total_mb = 0, total_ms = 0; ///< of the rows
