@@ -25,8 +25,7 @@ void apply_options(GraphModel& model, const SessionOptions& options) {
     errors.throw_if_any("--set");
     for (const auto& [id, on] : options.switches)
         model.switch_pass(id, on);
-    for (const std::string& id : model.off_for(options.resource))
-        model.switch_pass(id, true);
+    if (!options.resource.empty()) model.ask_for(options.resource);
 }
 
 Session::Session(SessionOptions options) : options_(std::move(options)), timer_mode_(probe_timer_mode()) {

@@ -44,6 +44,7 @@ struct GraphValues {
     };
     std::vector<Value> parameters;                      ///< also those that were put back to their default
     std::vector<std::pair<std::string, bool>> switches; ///< pass → on or off, where the file says otherwise
+    std::set<std::string> asked;                        ///< resources that somebody asked for
     /// As options of the command line: "--set a.b=1 --enable c".
     std::string options() const;
 };
@@ -88,6 +89,10 @@ class GraphModel {
     std::vector<std::string> off_for(const std::string& resource) const;
     /// Switches a pass; with it come on those that are off and make what it reads. Throws Error naming the nearest.
     void switch_pass(const std::string& id, bool on);
+    /// Somebody wants to see this resource: passes that are off and make it come on, and plans keep them also where
+    /// only skipped passes would read it. A resource that nothing makes is told by who looks it up.
+    void ask_for(const std::string& resource);
+    bool is_asked_for(const std::string& resource) const { return asked_.contains(resource); }
 
     /// Reads a node's shader files again; its //! parameters and slots follow.
     void scan(PassNode& node, const Defines& formats = {});
@@ -117,6 +122,7 @@ class GraphModel {
     ParameterSet graph_parameters_;
     std::vector<std::unique_ptr<PassNode>> nodes_;
     std::set<std::string> changes_;
+    std::set<std::string> asked_; ///< resources
     mutable bool noting_ = false;
     mutable std::set<std::string> noted_;
 };

@@ -117,4 +117,10 @@ void GraphModel::switch_pass(const std::string& id, bool on) {
         find_node(off)->enabled = true;
 }
 
+void GraphModel::ask_for(const std::string& resource) {
+    asked_.insert(resource);
+    for (const std::string& off : off_for(resource))
+        switch_pass(off, true);
+}
+
 } // namespace bounce

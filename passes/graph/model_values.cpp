@@ -41,6 +41,7 @@ GraphValues GraphModel::values() const {
         add(node->id(), node->entry.type, node->parameters);
     for (const auto& node : nodes_)
         if (node->enabled != node->entry.enabled) values.switches.emplace_back(node->id(), node->enabled);
+    values.asked = asked_;
     return values;
 }
 
@@ -56,6 +57,7 @@ void GraphModel::adopt_values(const GraphValues& values) {
     }
     for (const auto& [id, on] : values.switches)
         if (PassNode* node = find_node(id)) node->enabled = on;
+    asked_.insert(values.asked.begin(), values.asked.end());
     for (const auto& node : nodes_)
         scan_by_values(*node);
 }

@@ -92,12 +92,14 @@ static bool reads_from(const Declared& reader, const Declared& writer) {
     return false;
 }
 
-/// Whether a pass runs whoever reads it: it makes an output, or nothing of the graph ever reads it (somebody looks at
-/// it), or the file has it off and a person switched it on.
+/// Whether a pass runs whoever reads it: it makes an output or what somebody asked for, or nothing of the graph ever
+/// reads it (somebody looks at it), or the file has it off and a person switched it on.
 static bool is_wanted(const PlanDraft& draft, const Declared& pass) {
     if (!pass.node->entry.enabled) return true;
-    for (size_t i = 0; i < pass.uses.size(); ++i)
-        if (pass.uses[i].writes && pass.targets[i].resource.starts_with("out.")) return true;
+    for (size_t i = 0; i < pass.uses.size(); ++i) {
+        const std::string& resource = pass.targets[i].resource;
+        if (pass.uses[i].writes && (resource.starts_with("out.") || draft.model.is_asked_for(resource))) return true;
+    }
     return std::none_of(draft.passes.begin(), draft.passes.end(),
                         [&](const Declared& other) { return &other != &pass && reads_from(other, pass); });
 }
