@@ -64,9 +64,9 @@ class Graph {
     /// the text of the programs that ran stay.
     void release_gpu();
     /// With another context current: makes it again. Of a reset that `cause` tells of, the pass that was running is
-    /// disabled where it is known, and else the program that was compiled last because of an edit, unless another program was
-    /// to blame. The
-    /// next frames are watched pass by pass, so that a second reset names its pass. Throws Error when it does not fit.
+    /// disabled where it is known, and else the program that was compiled last because of an edit, unless another
+    /// program was to blame. The next frames are watched pass by pass, so that a second reset names its pass. Throws
+    /// Error when it does not fit.
     void restore_gpu(ResetCause cause);
     /// The pass in which the context was lost; empty: not lost, or not known.
     const std::string& lost_in() const { return lost_in_; }

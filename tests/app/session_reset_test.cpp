@@ -99,8 +99,9 @@ TEST_F(SessionReset, TheProgramThatWasEditedLastIsDisabledWithItsReason) {
     reset(session);
     session.render();
     EXPECT_EQ(picture(session), before) << "what else was edited runs";
-    EXPECT_THAT(problems(session), AllOf(HasSubstr("tonemap.comp: disabled: the GPU was reset, and it was compiled last"),
-                                         Not(HasSubstr("compose.comp"))));
+    EXPECT_THAT(problems(session),
+                AllOf(HasSubstr("tonemap.comp: disabled: the GPU was reset, and it was compiled last"),
+                      Not(HasSubstr("compose.comp"))));
     session.render();
     EXPECT_THAT(problems(session), HasSubstr("disabled")) << "it stays so";
     edit(session, "tonemap.comp", "// last", "// again");

@@ -125,7 +125,7 @@ class Shaders(unittest.TestCase):
         block = "layout(std430) buffer a_b { uint words[]; };"
         with tempfile.TemporaryDirectory() as folder:
             self.assertIn("int a = 1.5", found("int a = 1.5;"))
-            self.assertEqual(found("", "uniform float b; uniform bool c = true;"), "")
+            self.assertEqual(found("", "uniform float b;\nuniform bool c = true;"), "")
             self.assertEqual(found("if (c) words[0] = 1u;", f"{block}\nuniform bool c = true;"), "")
             both = block + "layout(std430) buffer c_d { uint more[]; };"
             self.assertEqual(found("words[0] = 1u;", both), "")
