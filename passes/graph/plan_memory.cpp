@@ -16,9 +16,7 @@ static std::string memory_remedy(GraphModel& model, const SceneFacts& facts, con
     const std::string remedy = plan_remedy(
         model, facts, plan, [](GraphModel&, const Plan& other) { return double(other.total_bytes()); },
         [](double bytes) { return format_bytes(bytes) + " in all"; });
-    if (!remedy.empty()) return remedy;
-    return facts.lights() > 1 ? fmt::format("use fewer lights ({}; a point light counts six times)", facts.lights())
-                              : std::string("use a smaller graph or scene");
+    return remedy.empty() ? "use a smaller graph or scene" : remedy;
 }
 
 static std::string needs_of(const GraphModel& model, const Plan& plan) {

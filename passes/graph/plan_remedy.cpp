@@ -23,7 +23,10 @@ class Remedy {
             best_ = at_half;
             change_ = fmt::format("lower the size ({}x{}): half of it", plan_.size.x, plan_.size.y);
         }
-        return best_ < before ? fmt::format("{} would need {}", change_, shown(best_)) : std::string();
+        if (best_ < before) return fmt::format("{} would need {}", change_, shown(best_));
+        return fewer_lights_help(before)
+                   ? fmt::format("use fewer lights ({}; a point light counts six times)", facts_.lights())
+                   : std::string();
     }
 
   private:
@@ -32,12 +35,21 @@ class Remedy {
                            [&](const PlanPass& pass) { return pass.id == id; });
     }
 
-    double measured(glm::ivec2 size) const {
+    double measured(glm::ivec2 size) const { return measured(facts_, size); }
+
+    double measured(const SceneFacts& facts, glm::ivec2 size) const {
         try {
-            return measure_(model_, model_.plan(facts_, glm::max(size, glm::ivec2(1))));
+            return measure_(model_, model_.plan(facts, glm::max(size, glm::ivec2(1))));
         } catch (const Error&) {
             return std::numeric_limits<double>::infinity(); // no plan at all with this value
         }
+    }
+
+    bool fewer_lights_help(double before) const {
+        SceneFacts fewer = facts_;
+        for (size_t* count : {&fewer.point_lights, &fewer.spot_lights, &fewer.directional_lights})
+            *count = (*count + 1) / 2; // one stays one, so that the same passes run
+        return measured(fewer, plan_.size) < before;
     }
 
     /// What is compiled in tells which slots there are.
