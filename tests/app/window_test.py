@@ -359,7 +359,7 @@ class Window(ProgramTest):
         self.open(self.shot, *SMALL, "--set", "tonemap.exposure=1", "--size", "%dx%d" % PICTURE, "--simulate-reset", "4", "--frames", "9",
                   "--capture-on-exit", "last.png")
         self.wait_for_exit()
-        self.assertEqual(self.said().count("the GPU was reset: "), 1)
+        self.assertEqual(self.said().count("the window and everything on the GPU are made again"), 1)
         self.assertNotIn("[error]", self.said())
         self.assertEqual(self.state()["parameters"]["tonemap.exposure"], "1")
         self.assertTrue(png_pixel(self.out / "last.png", 5, 5))

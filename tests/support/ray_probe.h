@@ -20,9 +20,10 @@ struct ProbedRay {
 static_assert(sizeof(ProbedRay) == 48);
 
 /// `make_ray`: GLSL that sets `origin` and `direction` from `vec3 a, b` (each in [0, 1)³), and may use the frame's
-/// constants. Rays are the same for the same number of them.
+/// constants, and the scene's buffers if it names them. Rays are the same for the same number of them.
 inline std::string probe_shader(const std::string& make_ray) {
-    return R"(#include "lib/frame.glsl"
+    const bool of_scene = make_ray.find("vertices") != std::string::npos;
+    return std::string(of_scene ? "#include \"traced/scene.glsl\"\n" : "") + R"(#include "lib/frame.glsl"
 #include "traced/trace.glsl"
 layout(local_size_x = 64) in;
 struct Probed { vec3 origin; float t; vec3 direction; uint draw; uint corner, any; vec2 uv; };
