@@ -1,5 +1,6 @@
 // Layered depth maps (LDM, section 3 and 4): N orthographic views, each texel a list of all surfaces along the axis,
 // sorted while it is built. Built in batches that fit a memory limit; what uses them takes its steps in the same loop.
+#include "gpu/driver_limits.h"
 #include "graph/context.h"
 #include "graph/list_capacity.h"
 #include "graph/prefix_sum.h"
@@ -32,7 +33,8 @@ class LayeredDepthMapsPass : public Pass {
                      "what a node holds: depth (8 bytes), also its plane (12), also its albedo (16)");
         p.add("tilted", tilted_, "axes are turned off the world's axes, along which walls are often built");
         p.add("rotate", rotate_, "axes turn from frame to frame, for accumulation over frames");
-        p.add("memory", memory_, {1, 16384}, "MiB", "largest size of a batch's lists; more maps take more batches");
+        p.add("memory", memory_, {1, 16384}, "MiB",
+              "largest size of a batch's lists (a storage block's at most); more maps: more batches");
         p.add("fragments", fragments_, {0.1, 1000}, "per texel",
               "initial capacity of a batch's nodes; enlarged on overflow");
     }
@@ -43,7 +45,8 @@ class LayeredDepthMapsPass : public Pass {
         double density = std::max(double(fragments_), nodes_a_texel_);
         double map_bytes = double(texels) * 4 * (1 + node_words() * density);
         if (arrays()) map_bytes += double(texels) * 4 * (2 + (node_words() - 1) * density);
-        slots_ = int(std::clamp(memory_ * 1048576.0 / map_bytes, 1.0, double(maps_)));
+        const double block = double(driver_limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE));
+        slots_ = int(std::clamp(std::min(memory_ * 1048576.0, block) / map_bytes, 1.0, double(maps_)));
         batches_ = (maps_ + slots_ - 1) / slots_;
         slots_ = (maps_ + batches_ - 1) / batches_;
         capacity_ = std::max<int64_t>(int64_t(std::ceil(double(texels * slots_) * density)), 64);
