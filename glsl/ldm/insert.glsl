@@ -5,10 +5,13 @@
 //
 // Why it is correct under concurrency. A node, once linked, is never removed, and its depth never changes; only its link
 // does, and only by compare-and-swap. So whoever holds a link's address may go on from it. The new node's words are
-// written, then memoryBarrierBuffer() orders those stores before the compare-and-swap that publishes its number: an
+// written, then memoryBarrier() orders those stores before the compare-and-swap that publishes its number: an
 // invocation that reads the number (coherent, volatile: from memory and not from a register) reads the node's words after
 // it, since their address depends on it. If the link changed between reading and swapping, the swap fails, and the search
 // goes on from the same link, whose new node may come before or behind ours.
+//
+// (memoryBarrierBuffer() would do, but zink of Mesa 22.3 makes a barrier of it that waits for the whole work group: in this
+// loop, whose invocations end at different steps, lavapipe then drops those that are not done.)
 //
 // Nodes of one depth are ordered by their other words, so that the content of a list depends on nothing but the fragments.
 #include "ldm/views.glsl"
@@ -45,7 +48,7 @@ void insert_fragment(uint head, uvec3 fragment) {
             continue;
         }
         lists[node_word(node, 1)] = next;
-        memoryBarrierBuffer();
+        memoryBarrier();
         uint found = atomicCompSwap(lists[link], next, node);
         if (found == next) return;
         next = found;
