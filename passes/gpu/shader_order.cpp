@@ -124,7 +124,7 @@ std::vector<std::string> order_problems(const ShaderSource& source) {
     }
     const std::map<std::string, ShaderMemory> declared = read_shader_memory(source.text);
     const bool has_barrier = std::any_of(text.tokens.begin(), text.tokens.end(), [](const GlslToken& token) {
-        return token.text.starts_with("memoryBarrier") || token == "groupMemoryBarrier";
+        return token.text.starts_with("memoryBarrier"); // groupMemoryBarrier orders a work group alone
     });
     for (const ShaderSlot& slot : source.slots) {
         const auto memory = declared.find(slot.identifier);

@@ -60,6 +60,9 @@ TEST(ShaderOrder, CoherentMemoryNeedsTheBarrierToo) {
     const std::string block = "layout(std430) coherent buffer a_c { uint c[]; };";
     EXPECT_THAT(problems_of(block, "    c[i] = 1u;\n    if (c[i + 1u] == 1u) return;"),
                 ElementsAre(HasSubstr("memoryBarrier")));
+    EXPECT_THAT(problems_of(block, "    c[i] = 1u;\n    groupMemoryBarrier();\n    if (c[i + 1u] == 1u) return;"),
+                ElementsAre(HasSubstr("memoryBarrier")))
+        << "it orders a work group alone";
     EXPECT_THAT(problems_of(block, "    c[i] = 1u;\n    memoryBarrierBuffer();\n    if (c[i + 1u] == 1u) return;"),
                 IsEmpty());
 }
