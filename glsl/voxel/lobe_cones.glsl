@@ -46,7 +46,6 @@ void main() {
 #ifdef HAS_gathered_emitted
             light += upsampled(gathered_emitted, pixel, 1).rgb;
 #endif
-            light *= microfacet_albedo(lobes.f0, rm.x, lobes.nv) / even; // whose fit is off there
         } else if (lobes.glossy) {
             VoxelGrid grid = cone_grid();
             ConeStart start = cone_start(grid, position, face);

@@ -29,7 +29,7 @@ class Gloss(ProgramTest):
         return curves
 
     def test_even_light_is_reflected_evenly(self):
-        # The voxels' normals, and the fit of what a lobe reflects of even light, are off by a few per cent.
+        # The voxels' normals are off by a few per cent.
         self.assertLess(max(self.curves(EVEN, "vct_tuned")["vct_tuned"]), 0.05)
 
     def test_the_lobe_is_more_than_one_cone(self):
