@@ -1,6 +1,7 @@
 // Each cell's light in spherical harmonics (VF, Eq. 2–3) of l = 0 and 1, and the centroid of its virtual point lights. A
 // light's lobe I·⟨n·ω⟩⁺ has the coefficients c_00 = √π/2·I and c_1m = √(π/3)·I·n_m. One invocation a cell, in order: sums
 // of floats by atomics would differ from run to run.
+#include "lib/harmonics.glsl"
 #include "vf/grid.glsl"
 
 layout(local_size_x = 64) in;
@@ -28,9 +29,9 @@ void main() {
         area += proxies[i].area;
     }
     Cell cell;
-    cell.c00 = vec4(0.886226925453 * sum, weight > 0.0 ? 1.0 : 0.0);
+    cell.c00 = vec4(k_lobe0 * sum, weight > 0.0 ? 1.0 : 0.0);
     for (int k = 0; k < 3; ++k)
-        cell.c1[k] = vec4(1.023326707946 * along[k], 0.0);
+        cell.c1[k] = vec4(k_lobe1 * along[k], 0.0);
     vec3 middle = grid.origin + (vec3(cell_of_index(c, grid.size)) + 0.5) * grid.cell;
     cell.middle = vec4(weight > 0.0 ? centre / weight : middle, area);
     cells[c] = cell;

@@ -1,4 +1,5 @@
 // The light of proxies against closed forms, and of cells against sums over their proxies.
+#include "support/harmonics.h"
 #include "vf/vf_fixture.h"
 
 #include <cmath>
@@ -11,23 +12,6 @@ class VfCells : public VfTest {
   protected:
     std::vector<VfProxyLight> lights() const { return run->read_buffer<VfProxyLight>("vf.light"); }
 };
-
-/// The fraction of the sphere's integral of f·Y, by a product rule.
-template <class F>
-double project(F value, int m) {
-    constexpr int k_steps = 400;
-    double sum = 0;
-    for (int i = 0; i < k_steps; ++i) {
-        double z = (i + 0.5) * 2 / k_steps - 1, ring = std::sqrt(1 - z * z);
-        for (int j = 0; j < 2 * k_steps; ++j) {
-            double phi = (j + 0.5) * M_PI / k_steps;
-            glm::dvec3 d(ring * std::cos(phi), ring * std::sin(phi), z);
-            double y = m < 0 ? std::sqrt(1 / (4 * M_PI)) : std::sqrt(3 / (4 * M_PI)) * d[m];
-            sum += value(d) * y;
-        }
-    }
-    return sum * (2.0 / k_steps) * (M_PI / k_steps);
-}
 
 } // namespace
 
@@ -111,10 +95,10 @@ TEST_F(VfCells, HoldTheSphericalHarmonicsOfTheirProxies) {
                 if (light > 0) sum += light * std::max(glm::dot(n, d), 0.0);
             return sum;
         };
-        double c00 = project(intensity, -1);
+        double c00 = project_on_harmonic(intensity, -1);
         EXPECT_NEAR(cells[size_t(c)].c00.r, c00, 2e-3 * c00);
         for (int m = 0; m < 3; ++m)
-            EXPECT_NEAR(cells[size_t(c)].c1[m].r, project(intensity, m), 2e-3 * c00);
+            EXPECT_NEAR(cells[size_t(c)].c1[m].r, project_on_harmonic(intensity, m), 2e-3 * c00);
     }
     EXPECT_GT(full, 4);
 }
