@@ -1,7 +1,7 @@
 // Voxelization of the scene into albedo, normal and emission volumes, static and dynamic geometry apart (DVS, section
 // V).
 #include "core/error.h"
-#include "graph/context.h"
+#include "graph/draw_starts.h"
 
 #include <bit>
 #include <fmt/format.h>
@@ -68,9 +68,7 @@ class VoxelizationPass : public Pass {
         } else {
             list("voxels.sums", capacity, averaging_ == Averaging::last_writer ? 4 : 13 * 4);
         }
-        d.creates_buffer("voxels.draw_starts", std::to_string(d.fact(&SceneFacts::instances) + 1), 4).incremental =
-            static_once_;
-        d.writes("voxels.draw_starts", Usage::storage);
+        declare_draw_starts(d, "voxels.draw_starts").incremental = static_once_;
         if (averaging_ == Averaging::gather) {
             // Boxes around triangles, around 64 of them, and around 64 of those: two corners each.
             uint64_t triangles = d.fact(&SceneFacts::triangles);
@@ -135,14 +133,10 @@ class VoxelizationPass : public Pass {
 
     /// Voxelizes the draws of one kind into voxels that no static geometry holds.
     void add(PassContext& c, int kind, uint32_t flag) {
-        std::vector<uint32_t> starts{0};
         // A draw of the other kind has no triangles here.
-        for (const GpuDraw& draw : c.draws())
-            starts.push_back(starts.back() + ((draw.flags & 1u) == flag || !static_once_ ? draw.index_count / 3 : 0));
-        const Buffer& buffer = c.buffer("voxels.draw_starts");
-        starts.resize(buffer.bytes() / sizeof(uint32_t), starts.back());
-        buffer.update(0, starts.size() * sizeof(uint32_t), starts.data());
-        int triangles = int(starts.back());
+        const int triangles = write_draw_starts(c, "voxels.draw_starts", [&](const GpuDraw& draw) {
+                                  return (draw.flags & 1u) == flag || !static_once_;
+                              }).triangles;
         auto visit = [&](const char* by_compute) {
             if (by_raster()) {
                 Targets none;

@@ -1,6 +1,6 @@
 // Point proxies in cells (VF, section 3.1): the scene as discs of equal density, sorted by the cells that they lie in.
 #include "core/error.h"
-#include "graph/context.h"
+#include "graph/draw_starts.h"
 #include "graph/list_capacity.h"
 #include "graph/prefix_sum.h"
 #include "graph/radix_sort.h"
@@ -44,7 +44,7 @@ class VfProxiesPass : public Pass {
             return d.creates_buffer(name, std::to_string(count), stride);
         };
         buffer("vf.grid", 1, sizeof(VfGrid)).overwritten = true;
-        buffer("vf.draw_starts", int64_t(d.fact(&SceneFacts::instances)) + 1, 4).overwritten = true;
+        declare_draw_starts(d, "vf.draw_starts").overwritten = true;
         buffer("vf.areas", triangles_, 4).overwritten = true;
         buffer("vf.emitted", proxy_capacity_, sizeof(VfProxy)).overwritten = true;
         buffer("vf.proxies", entry_capacity_, sizeof(VfProxy)).overwritten = true;
@@ -53,7 +53,6 @@ class VfProxiesPass : public Pass {
             d, fmt::format("max({}, {})", std::max(triangles_, proxy_capacity_), radix_sort_values(entries)));
         declare_radix_sort(d, entries);
         d.writes("vf.grid", Usage::storage);
-        d.writes("vf.draw_starts", Usage::storage);
         for (const char* program : k_programs)
             d.uses(program);
         auto counts = [&](const std::string& label, size_t offset, bool overflow = false) {
@@ -82,14 +81,9 @@ class VfProxiesPass : public Pass {
 
     void execute(PassContext& c) override {
         write_grid(c);
-        std::vector<uint32_t> starts{0};
-        for (const GpuDraw& draw : c.draws())
-            starts.push_back(starts.back() + draw.index_count / 3);
-        c.set("draw_count", int(starts.size()) - 1);
-        const Buffer& buffer = c.buffer("vf.draw_starts");
-        starts.resize(buffer.bytes() / sizeof(uint32_t), starts.back());
-        buffer.update(0, starts.size() * sizeof(uint32_t), starts.data());
-        const int triangles = int(std::min<int64_t>(triangles_, starts.back()));
+        const DrawStarts starts = write_draw_starts(c, "vf.draw_starts");
+        c.set("draw_count", starts.draws);
+        const int triangles = int(std::min<int64_t>(triangles_, starts.triangles));
         c.set("triangle_count", triangles);
         c.set("proxy_capacity", int(proxy_capacity_));
         c.set("entry_capacity", int(entry_capacity_));

@@ -1,6 +1,6 @@
 // Occlusion voxels (LRSM, section 5): one byte a voxel, 0 or 255, built each frame without atomics.
 #include "core/error.h"
-#include "graph/context.h"
+#include "graph/draw_starts.h"
 
 #include <bit>
 #include <fmt/format.h>
@@ -41,9 +41,8 @@ class OcclusionVoxelsPass : public Pass {
             d.uses("raster");
             return;
         }
-        d.creates_buffer("voxels.draw_starts", std::to_string(d.fact(&SceneFacts::instances) + 1), 4);
+        declare_draw_starts(d, "voxels.draw_starts");
         d.uses(bits ? "bits" : "compute");
-        d.writes("voxels.draw_starts", Usage::storage);
         if (bits) {
             d.creates("voxels.bricks", ResourceKind::texture_3d, "r8ui", {base, base, slices});
             d.uses("brick_mip");
@@ -60,15 +59,8 @@ class OcclusionVoxelsPass : public Pass {
             c.draw_scene("raster", none);
             return;
         }
-        std::vector<uint32_t> starts{0};
-        for (const GpuDraw& draw : c.draws())
-            starts.push_back(starts.back() + draw.index_count / 3);
-        const Buffer& buffer = c.buffer("voxels.draw_starts");
-        // Facts may count more instances than this frame draws: what is left over repeats the end.
-        starts.resize(buffer.bytes() / sizeof(uint32_t), starts.back());
-        buffer.update(0, starts.size() * sizeof(uint32_t), starts.data());
         constexpr int k_lanes = 16, k_row = 65536; // as in voxel/occlusion.comp
-        int triangles = int(starts.back());
+        int triangles = write_draw_starts(c, "voxels.draw_starts").triangles;
         c.dispatch(storage_ == Storage::bits ? "bits" : "compute",
                    {std::min(triangles, k_row) * k_lanes, (triangles + k_row - 1) / k_row, 1});
         if (storage_ == Storage::bits && c.iteration == 7) {
