@@ -218,12 +218,18 @@ std::set<std::string> GraphModel::note_numbers(bool on) const {
     return std::exchange(noted_, {});
 }
 
+/// The text of a value that follows the graph's parameters. An enumeration is followed by name, not by number.
+static std::string derived_text(const std::string& expression, const ParameterSet& graph) {
+    const Parameter* followed = graph_parameter(graph, std::string(trim(expression)));
+    if (followed && followed->info.kind == ParameterKind::enumeration) return to_text(followed->info, followed->value);
+    return fmt::format("{}", evaluate(expression, graph_names(graph)));
+}
+
 void GraphModel::apply_file_values(PassNode& node, ErrorList& errors) {
     for (const auto& [name, text] : node.entry.params_json) {
         try {
             if (auto expression = as_expression(text)) {
-                double value = evaluate(*expression, graph_names(graph_parameters_));
-                node.parameters.set_text(name, fmt::format("{}", value), ParameterOrigin::graph);
+                node.parameters.set_text(name, derived_text(*expression, graph_parameters_), ParameterOrigin::graph);
             } else {
                 node.parameters.set_json(name, nlohmann::json::parse(text), ParameterOrigin::graph);
             }
@@ -282,13 +288,15 @@ void GraphModel::set(const std::string& name, const std::string& text, Parameter
     parameter(name); // reports an unknown name with the nearest of the whole graph
     auto [id, own] = split_name(name);
     changes_.insert(name);
+    auto scan_again = [&](const PassNode& changed) { // other slots may be there now
+        for (const auto& node : nodes_)
+            if (node.get() == &changed || node->entry.params_of == changed.id()) scan(*node);
+    };
     if (id != "graph") {
         PassNode& owner = *find_node(id);
         owner.parameters.set_text(own, text, origin);
         if (!owner.parameters.find(own)->info.in_shader) owner.pass->reset_capacity();
-        if (!owner.parameters.find(own)->info.is_static) return;
-        for (const auto& node : nodes_)
-            if (node->id() == id || node->entry.params_of == id) scan(*node); // other slots may be there now
+        if (owner.parameters.find(own)->info.is_static) scan_again(owner);
         return;
     }
     graph_parameters_.set_text(own, text, origin);
@@ -298,10 +306,10 @@ void GraphModel::set(const std::string& name, const std::string& text, Parameter
             Parameter* target = node->parameters.find(derived);
             auto expression = as_expression(json);
             if (!target || !expression || target->origin > ParameterOrigin::graph) continue;
-            double value = evaluate(*expression, graph_names(graph_parameters_));
-            node->parameters.set_text(derived, fmt::format("{}", value), ParameterOrigin::graph);
+            node->parameters.set_text(derived, derived_text(*expression, graph_parameters_), ParameterOrigin::graph);
             changes_.insert(node->id() + "." + derived);
             if (!target->info.in_shader) node->pass->reset_capacity();
+            if (target->info.is_static) scan_again(*node);
         }
     }
 }

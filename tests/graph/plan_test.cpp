@@ -201,6 +201,31 @@ TEST_F(PlanTest, AValueMayBeAnExpressionOfTheGraphsParameters) {
                 HasSubstr("did you mean 'test_lamp.detail'?"));
 }
 
+/// An enumeration is followed by name. What is compiled in is read again, so that other slots come and go.
+TEST_F(PlanTest, AValueMayFollowAnEnumerationOfTheGraph) {
+    shader("pick.comp", "uniform int way = 0; //! static {left, right} which\n"
+                        "#if way == way_left\nuniform sampler2D a_left;\n#endif\n"
+                        "#if way == way_right\nuniform sampler2D a_right;\n#endif\n" +
+                            image("a_out"));
+    shader("left.comp", image("a_left"));
+    shader("right.comp", image("a_right"));
+    GraphModel m =
+        model(R"("parameters":{"side":{"default":"right","choices":["left","right"]}},)"
+              R"("resources":{"a.left":{"size":[8,8]},"a.right":{"size":[8,8]},"a.out":{"size":[8,8]}},"passes":[)" +
+              node("left") + "," + node("right") + "," + node("pick", R"(,"params":{"way":"=graph.side"})") + "]");
+    auto reads = [&](const std::string& slot) {
+        for (const PlanPass& pass : m.plan(one_light(), {8, 8}).passes)
+            for (const PlanSlot& used : pass.slots)
+                if (pass.id == "pick" && used.use.slot == slot) return true;
+        return false;
+    };
+    EXPECT_TRUE(reads("a.right"));
+    EXPECT_FALSE(reads("a.left"));
+    m.set("graph.side", "left", ParameterOrigin::command_line);
+    EXPECT_FALSE(reads("a.right"));
+    EXPECT_TRUE(reads("a.left"));
+}
+
 TEST_F(PlanTest, TextAndGraphvizTellOrderSizesBarriersAndDeclines) {
     shader("mips.comp", "uniform sampler2D a_source;\n" + image("a_target"));
     shader("fill.comp", image("a_chain"));
