@@ -17,6 +17,9 @@ layout(std430) readonly buffer voxels_draw_starts { uint draw_starts[]; };
 #include "lib/draw_of_triangle.glsl"
 
 uniform int resolution_of_grid;
+#ifndef TO_VOXEL // metres to voxels of another grid
+#define TO_VOXEL(position) world_to_voxel(position, resolution_of_grid)
+#endif
 
 const uint k_row = 65536u; // triangles in a row of the dispatch
 
@@ -37,7 +40,7 @@ VisitedTriangle load_triangle(uint triangle, int draw_count) {
     t.material = draws[t.draw].material;
     mat4 world = draws[t.draw].world;
     for (int i = 0; i < 3; ++i)
-        t.positions[i] = world_to_voxel((world * vec4(vertices[indices[t.first + uint(i)]].position_u.xyz, 1.0)).xyz, resolution_of_grid);
+        t.positions[i] = TO_VOXEL((world * vec4(vertices[indices[t.first + uint(i)]].position_u.xyz, 1.0)).xyz);
     return t;
 }
 
