@@ -103,6 +103,45 @@ TEST_F(LpvInject, CoefficientsAreThoseOfClampedCosines) {
     EXPECT_EQ(integrated, 3);
 }
 
+/// Where cells are coarse, half a cell along the normal leads through other surfaces. What the light sees, no surface
+/// hides.
+TEST_F(LpvInject, LightStartsInCellsThatTheLightSees) {
+    const glm::dvec3 lamp(0.3, 3, 0.2);
+    MadeScene made; // slats over a floor
+    made.quad({-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2});
+    for (int i = 0; i < 12; ++i)
+        made.box({-1.9f + 0.32f * float(i), 0.6f, -1.8f}, {-1.78f + 0.32f * float(i), 0.65f, 1.8f});
+    std::vector<double> hidden;
+    for (const char* start : {"shifted", "in_front", "lit"}) {
+        make(made.scene, {spot_light(glm::vec3(lamp), {-0.1f, -1, 0.1f}, {9, 6, 3}, 20, 42)},
+             {{"graph.iterations", "1"}, {"graph.cells", "8"}, {"rsm.resolution", "128"}, {"lights.start", start}});
+        const LpvCascade cascade = grid().cascade[0];
+        const std::vector<LpvLight> light = wave(0);
+        double all = 0, dark = 0;
+        for (int i = 0; i < 8 * 8 * 8; ++i) {
+            if (light[size_t(i)][1].x <= 0) continue;
+            const glm::dvec3 middle =
+                glm::dvec3(cascade.anchor + cascade.cell * (glm::vec3(i % 8, i / 8 % 8, i / 64) + 0.5f));
+            bool met = false;
+            for (size_t t = 0; t + 2 < run->scene.indices.size() && !met; t += 3) {
+                glm::dvec3 p[3];
+                for (size_t k = 0; k < 3; ++k)
+                    p[k] = glm::dvec3(run->scene.vertices[run->scene.indices[t + k]].position);
+                met = crosses(p, lamp, middle - lamp) == 1;
+            }
+            all += double(light[size_t(i)][1].x);
+            dark += met ? double(light[size_t(i)][1].x) : 0;
+        }
+        EXPECT_NEAR(all * std::pow(double(cascade.cell), 2) * 2 / std::sqrt(M_PI) / total(texels()).g, 1, 1e-3)
+            << start;
+        hidden.push_back(dark / all);
+    }
+    RecordProperty("hidden",
+                   fmt::format("{:.3f} shifted, {:.3f} in front, {:.3f} lit", hidden[0], hidden[1], hidden[2]));
+    EXPECT_GT(hidden[0], 0.1);
+    EXPECT_LT(hidden[2], 0.25 * hidden[0]);
+}
+
 /// Ordinates hold the same flux: of each texel the sum over directions is what the lobe's integral is.
 TEST_F(LpvInject, OrdinatesHoldTheFluxOfTheMaps) {
     shader("test/beams.comp", R"(#include "lpv/grid.glsl"

@@ -70,18 +70,6 @@ void main() {
     }
 };
 
-/// Whether a triangle crosses a stretch: 1, 0, or −1 where rounding may decide.
-int crosses(const glm::dvec3 (&p)[3], glm::dvec3 from, glm::dvec3 step) {
-    const glm::dvec3 e1 = p[1] - p[0], e2 = p[2] - p[0], h = glm::cross(step, e2);
-    const double determinant = glm::dot(e1, h);
-    if (std::abs(determinant) < 1e-9) return -1;
-    const glm::dvec3 s = from - p[0], q = glm::cross(s, e1);
-    const double u = glm::dot(s, h) / determinant, v = glm::dot(step, q) / determinant,
-                 t = glm::dot(e2, q) / determinant;
-    const double inside = std::min({u, v, 1 - u - v, t, 1 - t});
-    return inside > 1e-3 ? 1 : inside < -1e-3 ? 0 : -1;
-}
-
 } // namespace
 
 TEST_F(LpvOrdinates, LinksAreCutByTheTrianglesThatCrossThem) {
