@@ -103,6 +103,30 @@ TEST_F(LpvInject, CoefficientsAreThoseOfClampedCosines) {
     EXPECT_EQ(integrated, 3);
 }
 
+/// Blended in halves as published, cells hold the same light, but for what many small summands lose to rounding.
+TEST_F(LpvInject, BlendingAddsUpTheSame) {
+    LpvSets sets{{"graph.iterations", "1"}, {"graph.cells", "12"}, {"graph.cascades", "2"}};
+    make(blocks(), one_of_each(), sets);
+    const std::vector<LpvLight> sorted = wave(0);
+    sets.push_back({"inject.route", "blended"});
+    make(blocks(), one_of_each(), sets);
+    const std::vector<LpvLight> blended = wave(0);
+    ASSERT_EQ(sorted.size(), blended.size());
+    double most = 0;
+    for (const LpvLight& cell : sorted)
+        most = std::max(most, double(cell[1].x));
+    int lit = 0;
+    for (size_t i = 0; i < sorted.size(); ++i) {
+        lit += sorted[i][1].x > 0 ? 1 : 0;
+        for (int colour = 0; colour < 3; ++colour)
+            for (int k = 0; k < 4; ++k)
+                EXPECT_NEAR(blended[i][colour][k], sorted[i][colour][k], 0.04 * sorted[i][colour].x + 1e-3 * most) << i;
+    }
+    EXPECT_GT(lit, 100);
+    run->frame();
+    EXPECT_EQ(wave(0), blended) << "points are blended in their order";
+}
+
 /// Where cells are coarse, half a cell along the normal leads through other surfaces. What the light sees, no surface
 /// hides.
 TEST_F(LpvInject, LightStartsInCellsThatTheLightSees) {
