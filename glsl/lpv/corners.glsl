@@ -6,7 +6,7 @@
 
 uniform float shift = 0.5;     //! [0, 1] (cells) how far a point is moved along its normal
 uniform float fade = 0.2;      //! [0, 1] where a cascade fades into the next, as a share of its half width
-uniform bool in_front = false; //! static cells behind the point's surface, or behind another that their link to its own crosses, do not count; the rest is scaled to one
+uniform bool in_front = false; //! static cells behind the point's surface, or behind a link that is crossed, do not count
 
 #if in_front
 #include "lpv/links.glsl"
@@ -34,6 +34,7 @@ Corners corners_at(vec3 place) {
 }
 
 #if in_front
+// What is left is scaled to one. Where nothing is, all eight count.
 void leave_out_hidden(inout Corners corners, int cascade, vec3 x, vec3 n) {
     int own = -1;
     float most = 0.0, total = 0.0, kept[8];

@@ -4,8 +4,8 @@
 
 layout(std430) readonly buffer lpv_sum { mat3x4 sums[]; };
 
-uniform int irradiance = 0;   //! {intensity, flux} from I(−n) half a cell away (published), or such that a cell's whole flux arrives somewhere
-uniform float damping = 1.0;  //! [0, 2] where light grows along the normal against its direction it is the surface's own: how much that darkens
+uniform int irradiance = 0;   //! {intensity, flux} I(−n) from half a cell away (published), or such that a cell's whole flux arrives
+uniform float damping = 1.0;  //! [0, 2] how much light darkens that grows along the normal against its own direction
 
 mat3x4 light_at(int cascade, Corners corners) {
     mat3x4 sum = mat3x4(0.0);

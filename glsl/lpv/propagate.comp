@@ -4,7 +4,7 @@
 #include "lpv/grid.glsl"
 #include "lpv/light.glsl"
 
-uniform int blocking = 0; //! static {surfels, links, none} what stops light: the geometry volume (published), triangles between the centres of cells, or nothing
+uniform int blocking = 0; //! static {surfels, links, none} what stops light: the geometry volume (published), triangles between cells, or nothing
 
 #if blocking == blocking_surfels
 layout(std430) readonly buffer lpv_blocking { vec4 blockers[]; };
@@ -22,7 +22,7 @@ layout(std430) buffer lpv_sum { mat3x4 sums[]; };    //! ordered: each invocatio
 uniform float strength = 1.0;   //! [0, 4] blocking surfels: factor on what the geometry volume stops
 uniform int lobes = 0;          //! static {face, direction} light is sent on toward the face (published), or on the way that it came
 uniform bool normalise = false; //! static the fluxes through all faces are scaled to what the cell holds: clamping adds nothing
-uniform int power = 1;          //! static [1, 4] the intensity's power by which a cell's light is shared among faces; above 1 with normalise
+uniform int power = 1;          //! static [1, 4] faces share a cell's light by this power of the intensity; above 1 with normalise
 
 uniform int iteration;
 

@@ -6,7 +6,7 @@
 #include "lpv/grid.glsl"
 
 uniform float shift = 0.5;     //! [0, 1] (cells) how far light is moved along its surface's normal
-uniform int start = 0;         //! {shifted, in_front, lit} light starts in the cell of its moved place (published), in one whose centre its surface faces, or of these in the nearest whose centre the light sees, too
+uniform int start = 0;         //! {shifted, in_front, lit} the cell where light starts: as shifted (published), before its surface, or there seen by the light
 
 // Whether nothing that the map shows lies between the light and x.
 bool is_lit(int view, vec3 x) {
@@ -19,6 +19,7 @@ bool is_lit(int view, vec3 x) {
 ivec3 start_cell(Cascade cascade, MapTexel texel, int view) {
     ivec3 at = cell_at(cascade, texel.position, shift * texel.normal);
     if (start == start_shifted) return at;
+    // Of the eight cells around, the nearest. The way from the texel to the light is free, so what the light sees is on its side.
     if (start == start_lit) {
         ivec3 low = cell_at(cascade, texel.position, shift * texel.normal - 0.5);
         float nearest = 3.0e38;
