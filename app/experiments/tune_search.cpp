@@ -1,6 +1,7 @@
 #include "app/experiments/tune_search.h"
 
 #include "core/error.h"
+#include "core/parameter_steps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -206,6 +207,9 @@ std::vector<std::string> neighbours_of(const TuneParameter& parameter, const std
         if (text != value && std::find(out.begin(), out.end(), text) == out.end()) out.push_back(text);
     };
     const ParameterValue now = parse_value(info, value);
+    for (const ParameterValue& step : steps_beside(info, now))
+        add(step);
+    if (!out.empty()) return out;
     switch (info.kind) {
     case ParameterKind::boolean:
         add(!std::get<bool>(now));

@@ -6,7 +6,6 @@
 #include <cfloat>
 #include <cmath>
 #include <imgui.h>
-#include <utility>
 
 namespace bounce {
 
@@ -50,28 +49,32 @@ static bool draw_integer(const ParameterInfo& info, int& value) {
                           ImGuiSliderFlags_AlwaysClamp);
 }
 
-static bool draw_choice(const std::string& name, const ParameterInfo& info, int& value) {
-    bool known = value >= 0 && value < int(info.choices.size());
-    if (!ImGui::BeginCombo("##value", known ? info.choices[size_t(value)].c_str() : "?")) return false;
-    int chosen = value;
-    for (int i = 0; i < int(info.choices.size()); ++i) {
-        if (ImGui::Selectable(info.choices[size_t(i)].c_str(), i == value)) chosen = i;
-        note_widget(name + "." + info.choices[size_t(i)]);
+/// A dropdown of an enumeration's names, or of all the numbers that a parameter may be.
+static bool draw_choice(const std::string& name, const ParameterInfo& info, ParameterValue& value) {
+    const std::string shown = to_text(info, value);
+    if (!ImGui::BeginCombo("##value", shown.c_str())) return false;
+    std::string chosen = shown;
+    for (const std::string& choice : info.choices) {
+        if (ImGui::Selectable(choice.c_str(), choice == shown)) chosen = choice;
+        note_widget(name + "." + choice);
     }
     ImGui::EndCombo();
-    return std::exchange(value, chosen) != chosen;
+    if (chosen == shown) return false;
+    value = parse_value(info, std::string_view(chosen));
+    return true;
 }
 
 bool draw_parameter_widget(const std::string& name, const ParameterInfo& info, ParameterValue& value, bool& at_once) {
-    at_once = info.kind == ParameterKind::boolean || info.kind == ParameterKind::enumeration;
+    at_once = info.kind == ParameterKind::boolean || !info.choices.empty();
     ImGui::SetNextItemWidth(-FLT_MIN);
+    if (!info.choices.empty()) return draw_choice(name, info, value);
     switch (info.kind) {
     case ParameterKind::boolean:
         return ImGui::Checkbox("##value", &std::get<bool>(value));
     case ParameterKind::integer:
         return draw_integer(info, std::get<int>(value));
     case ParameterKind::enumeration:
-        return draw_choice(name, info, std::get<int>(value));
+        return draw_choice(name, info, value);
     case ParameterKind::real:
         return draw_reals(info, &std::get<float>(value), 1);
     case ParameterKind::vec2:

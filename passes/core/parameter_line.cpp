@@ -1,6 +1,7 @@
 // Reads the `uniform … //! …` lines of shaders.
 #include "core/parameter_line.h"
 #include "core/error.h"
+#include "core/parameter_steps.h"
 #include "core/scanner.h"
 #include "core/source_lines.h"
 #include "core/text.h"
@@ -94,13 +95,19 @@ bool parse_parameter_line(std::string_view code, std::string_view mark, Paramete
         rest = trim(rest.substr(close + 1));
     } else if (rest.starts_with("{")) {
         size_t close = rest.find('}');
-        if (info.kind != ParameterKind::integer || close == std::string_view::npos) {
-            throw Error("the choices of '" + info.name + "' are written {a, b, c}, on a uniform int");
-        }
-        info.kind = ParameterKind::enumeration;
-        info.choices = split(rest.substr(1, close - 1), ',');
-        if (std::find(info.choices.begin(), info.choices.end(), "") != info.choices.end()) {
+        std::vector<std::string> choices;
+        if (close != std::string_view::npos) choices = split(rest.substr(1, close - 1), ',');
+        const bool scalar = info.kind == ParameterKind::integer || info.kind == ParameterKind::real;
+        if (scalar && are_numbers(choices)) {
+            choose_from(info, choices);
+        } else if (info.kind != ParameterKind::integer || close == std::string_view::npos) {
+            throw Error("the choices of '" + info.name +
+                        "' are written {a, b, c}, on a uniform int, or as numbers: {32, 64, 128}");
+        } else if (std::find(choices.begin(), choices.end(), "") != choices.end()) {
             throw Error("a choice of '" + info.name + "' has no name: they are written {a, b, c}");
+        } else {
+            info.kind = ParameterKind::enumeration;
+            info.choices = choices;
         }
         rest = trim(rest.substr(close + 1));
     } else if (info.kind == ParameterKind::vec3) {
@@ -117,7 +124,10 @@ bool parse_parameter_line(std::string_view code, std::string_view mark, Paramete
     info.help = std::string(rest);
 
     ParameterInfo as_number = info;
-    if (info.kind == ParameterKind::enumeration) as_number.kind = ParameterKind::integer;
+    if (info.kind == ParameterKind::enumeration) {
+        as_number.kind = ParameterKind::integer;
+        as_number.choices.clear();
+    }
     std::string text = declaration->value.empty() ? "0" : plain_default(declaration->value);
     try {
         info.default_value = parse_value(as_number, std::string_view(text));

@@ -76,7 +76,7 @@ static ParameterValue from_components(ParameterKind kind, const std::vector<doub
 }
 
 std::string range_text(const ParameterInfo& info) {
-    if (info.kind == ParameterKind::enumeration) return "{" + join(info.choices, ", ") + "}";
+    if (!info.choices.empty()) return "{" + join(info.choices, ", ") + "}";
     if (std::isinf(info.min) && std::isinf(info.max)) return "";
     return fmt::format("[{}, {}]", float(info.min), float(info.max));
 }
@@ -86,6 +86,7 @@ static std::string expectation(const ParameterInfo& info) {
         "true or false",         "a whole number",         "one of",          "a number", "two numbers (x,y)",
         "three numbers (x,y,z)", "four numbers (x,y,z,w)", "a colour (r,g,b)"};
     std::string range = range_text(info);
+    if (!info.choices.empty()) return "one of " + range;
     return std::string(names[int(info.kind)]) + (range.empty() ? "" : " " + range);
 }
 
@@ -93,11 +94,29 @@ static std::string expectation(const ParameterInfo& info) {
     throw Error(fmt::format("'{}' is not a value for parameter '{}': it takes {}", got, info.name, expectation(info)));
 }
 
+static bool parse_number(std::string_view text, double& number) {
+    text = trim(text);
+    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+    auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size();
+}
+
+/// Whether a number is one of those that the parameter takes.
+static bool is_step(const ParameterInfo& info, double number) {
+    if (info.kind == ParameterKind::enumeration || info.choices.empty()) return true;
+    return std::any_of(info.choices.begin(), info.choices.end(), [&](const std::string& choice) {
+        double step = 0;
+        return parse_number(choice, step) && float(step) == float(number);
+    });
+}
+
 void check_range(const ParameterInfo& info, const ParameterValue& value) {
     for (double c : components(value)) {
         bool in_choices = info.kind != ParameterKind::enumeration || (c >= 0 && c < double(info.choices.size()));
         // Compare as floats: 0.1 typed by a person must equal the 0.1 that bounds the range.
-        if (std::isfinite(c) && float(c) >= float(info.min) && float(c) <= float(info.max) && in_choices) continue;
+        if (std::isfinite(c) && float(c) >= float(info.min) && float(c) <= float(info.max) && in_choices &&
+            is_step(info, c))
+            continue;
         throw Error(fmt::format("'{}' is out of range for parameter '{}': it takes {}", to_text(info, value), info.name,
                                 expectation(info)));
     }
@@ -132,13 +151,6 @@ nlohmann::json to_json(const ParameterInfo& info, const ParameterValue& value) {
     for (double c : components(value))
         array.push_back(nlohmann::json::parse(fmt::format("{}", float(c))));
     return array.size() == 1 ? array[0] : array;
-}
-
-static bool parse_number(std::string_view text, double& number) {
-    text = trim(text);
-    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-    auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc() && end == text.data() + text.size();
 }
 
 ParameterValue parse_value(const ParameterInfo& info, std::string_view text) {

@@ -1,10 +1,7 @@
 // Voxelization of the scene into albedo, normal and emission volumes, static and dynamic geometry apart (DVS, section
 // V).
-#include "core/error.h"
+#include "core/parameter_steps.h"
 #include "graph/draw_starts.h"
-
-#include <bit>
-#include <fmt/format.h>
 
 namespace bounce {
 
@@ -20,6 +17,7 @@ class VoxelizationPass : public Pass {
             description.constant(name);
         ParameterSet& p = description.parameters;
         p.add("resolution", resolution_, {8, 512}, "voxels", "along each side of the grid; a power of two");
+        choose_powers_of_two(p, "resolution");
         p.add_choice("route", route_, {"raster", "compute"},
                      "raster: conservative, as published; compute: every voxel that is overlapped");
         // average: packed running means by compare-and-swap, as published. last_writer: one triangle's surface. sum:
@@ -39,9 +37,6 @@ class VoxelizationPass : public Pass {
 
     void declare(Declaration& d) override {
         using enum ResourceKind;
-        if (!std::has_single_bit(unsigned(resolution_)))
-            throw Error(fmt::format("resolution {} is no power of two: {} and {} are the nearest", resolution_,
-                                    std::bit_floor(unsigned(resolution_)), std::bit_ceil(unsigned(resolution_))));
         emission_ = d.fact(&SceneFacts::emissive_materials) > 0;
         auto volume = [&](const char* name, const char* format) {
             d.creates(name, texture_3d, format, {resolution_, resolution_, resolution_}).incremental = static_once_;

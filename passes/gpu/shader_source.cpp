@@ -315,12 +315,13 @@ class Expander {
         if (info.is_static) {
             auto value = statics_.find(info.name);
             std::string text = value != statics_.end() ? value->second : static_literal(info, info.default_value);
+            const bool named = info.kind == ParameterKind::enumeration;
             // An enumeration is a constant, which names in functions may hide: "#if" over it is followed here.
             emit_instead(line, file,
-                         info.choices.empty() ? fmt::format("#define {} {}", info.name, text)
-                                              : fmt::format("const int {} = {};", info.name, text));
+                         named ? fmt::format("const int {} = {};", info.name, text)
+                               : fmt::format("#define {} {}", info.name, text));
             if (text == "true" || text == "false") static_bools_[info.name] = text == "true";
-            if (!info.choices.empty()) static_choices_[info.name] = std::atoi(text.c_str());
+            if (named) static_choices_[info.name] = std::atoi(text.c_str());
         } else {
             emit(line, file);
         }
@@ -332,6 +333,7 @@ class Expander {
 
     /// An enumeration's values by name, as constants above all code: "visibility_cones" is 1.
     void name_choices(const ParameterInfo& info) {
+        if (info.kind != ParameterKind::enumeration) return;
         for (size_t i = 0; i < info.choices.size(); ++i) {
             choices_.push_back(fmt::format("const int {}_{} = {};", info.name, info.choices[i], i));
             choice_values_[info.name + "_" + info.choices[i]] = int(i);

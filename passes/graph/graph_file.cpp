@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/json_text.h"
+#include "core/parameter_steps.h"
 #include "core/paths.h"
 #include "core/scanner.h"
 #include "core/text.h"
@@ -79,6 +80,13 @@ class ObjectReader {
     std::vector<std::string> known_;
 };
 
+std::vector<std::string> numbers_of(const json& array) {
+    std::vector<std::string> numbers;
+    for (const json& number : array)
+        numbers.push_back(number.dump());
+    return numbers;
+}
+
 ParameterInfo read_parameter(const std::string& name, const json& value, const std::string& where, ErrorList& errors) {
     ObjectReader reader(value, where, errors);
     ParameterInfo info;
@@ -88,7 +96,9 @@ ParameterInfo read_parameter(const std::string& name, const json& value, const s
     const json* range = reader.get("range");
     const json* choices = reader.get("choices");
     const json* fallback = reader.get("default");
-    if (choices && choices->is_array()) {
+    const bool named = choices && choices->is_array() &&
+                       std::any_of(choices->begin(), choices->end(), [](const json& c) { return !c.is_number(); });
+    if (named) {
         info.kind = ParameterKind::enumeration;
         for (const json& choice : *choices)
             info.choices.push_back(choice.is_string() ? choice.get<std::string>() : choice.dump());
@@ -114,6 +124,7 @@ ParameterInfo read_parameter(const std::string& name, const json& value, const s
         return info;
     }
     try {
+        if (choices && choices->is_array() && !named) choose_from(info, numbers_of(*choices));
         info.default_value = parse_value(info, *fallback);
     } catch (const Error& error) {
         reader.error(error.what());

@@ -121,9 +121,11 @@ Defines GraphModel::static_values(const PassNode& node) const {
 /// text names by itself (gpu/shader_source.h).
 static Defines choices_of(const PassNode& node) {
     Defines names;
-    for (const Parameter& parameter : node.parameters.all())
-        for (size_t i = 0; !parameter.info.in_shader && i < parameter.info.choices.size(); ++i)
+    for (const Parameter& parameter : node.parameters.all()) {
+        if (parameter.info.in_shader || parameter.info.kind != ParameterKind::enumeration) continue;
+        for (size_t i = 0; i < parameter.info.choices.size(); ++i)
             names[parameter.info.name + "_" + parameter.info.choices[i]] = std::to_string(i);
+    }
     return names;
 }
 

@@ -1,5 +1,7 @@
 #include "graph/plan_remedy.h"
 
+#include "core/parameter_steps.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
@@ -77,9 +79,13 @@ class Remedy {
             const std::string name = id + "." + p.info.name;
             const bool shapes = !p.info.in_shader || p.info.is_static || id == "graph";
             if (p.info.kind == ParameterKind::integer) {
-                const int value = std::get<int>(p.value), half = value / 2;
-                if (half >= 1 && half >= p.info.min && half <= p.info.max && is_better(id, set, p, half))
-                    change_ = fmt::format("lower {} ({}): half of it", name, value);
+                const int value = std::get<int>(p.value);
+                int half = value / 2;
+                if (auto beside = steps_beside(p.info, p.value); !beside.empty()) half = std::get<int>(beside.front());
+                if (half >= 1 && half < value && half >= p.info.min && half <= p.info.max &&
+                    is_better(id, set, p, half))
+                    change_ = fmt::format("lower {} ({}): {}", name, value,
+                                          2 * half == value ? "half of it" : std::to_string(half));
             } else if (choices_ && shapes && p.info.kind == ParameterKind::boolean) {
                 const bool value = std::get<bool>(p.value);
                 if (is_better(id, set, p, !value)) change_ = fmt::format("set {}={}: it", name, !value);

@@ -1,9 +1,9 @@
 // Occlusion voxels (LRSM, section 5): one byte a voxel, 0 or 255, built each frame without atomics.
 #include "core/error.h"
+#include "core/parameter_steps.h"
 #include "graph/draw_starts.h"
 
 #include <bit>
-#include <fmt/format.h>
 
 namespace bounce {
 
@@ -17,6 +17,7 @@ class OcclusionVoxelsPass : public Pass {
         description.constant("resolution_of_grid");
         ParameterSet& p = description.parameters;
         p.add("resolution", resolution_, {8, 512}, "voxels", "along each side of the grid; a power of two");
+        choose_powers_of_two(p, "resolution");
         p.add_choice("route", route_, {"raster", "compute"},
                      "raster: dominant axis, as published; compute: every voxel that is overlapped");
         p.add_choice("storage", storage_, {"bytes", "bits"},
@@ -26,9 +27,6 @@ class OcclusionVoxelsPass : public Pass {
     }
 
     void declare(Declaration& d) override {
-        if (!std::has_single_bit(unsigned(resolution_)))
-            throw Error(fmt::format("resolution {} is no power of two: {} and {} are the nearest", resolution_,
-                                    std::bit_floor(unsigned(resolution_)), std::bit_ceil(unsigned(resolution_))));
         int slices = resolution_ * (directional_leaves_ ? 6 : 1);
         bool bits = storage_ == Storage::bits;
         if (bits && route_ == Route::raster) throw Error("storage = bits needs route = compute");
