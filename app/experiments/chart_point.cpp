@@ -176,10 +176,15 @@ double ChartPoint::error(const Metric& metric) const {
     return std::abs(same_transport[shown.name] - shown.ideal);
 }
 
+static std::string transport_of(const ChartPoint& point) {
+    return transport_text(point.transport_bounces, point.parts);
+}
+
 void mark_pareto(std::vector<ChartPoint>& points, const Metric& metric) {
     for (ChartPoint& point : points) {
         point.on_front = std::none_of(points.begin(), points.end(), [&](const ChartPoint& other) {
-            if (other.task.session.shot != point.task.session.shot) return false;
+            if (other.task.session.shot != point.task.session.shot || transport_of(other) != transport_of(point))
+                return false;
             const double error = point.error(metric), other_error = other.error(metric);
             bool no_worse = other.total_ms <= point.total_ms && other_error <= error;
             bool better = other.total_ms < point.total_ms || other_error < error;

@@ -84,7 +84,7 @@ std::string point_to_json(const ChartPoint& point);
 /// Throws Error when the text is no point.
 ChartPoint point_from_json(const std::string& text, const std::string& where);
 
-/// Marks, per shot, the points that no other beats in both time and error against the same transport.
+/// Marks the points that no other of their shot and their transport beats in both time and error.
 void mark_pareto(std::vector<ChartPoint>& points, const Metric& metric);
 
 } // namespace bounce

@@ -3,6 +3,7 @@
 #include "app/experiments/csv.h"
 #include "app/experiments/html_page.h"
 #include "app/experiments/svg_scatter.h"
+#include "app/experiments/transport.h"
 #include "app/origin.h"
 #include "core/printable.h"
 #include "core/text.h"
@@ -129,8 +130,8 @@ std::string chart_html(const std::vector<ChartPoint>& points, const ChartView& v
     std::string out =
         "<h1>Error against time</h1>\n"
         "<p>Errors are measured off depth and normal edges, against a path-traced reference of the graph's own light "
-        "transport; in small print, against one of all light. Points with a bar on the left are beaten by no other in "
-        "both time and error.</p>\n";
+        "transport; in small print, against one of all light. Points with a bar on the left are beaten in both time "
+        "and error by no other of the same light transport, which stands under each.</p>\n";
     out += "<p>" + escape_markup(origin_head(origins_of(points))) + "</p>\n";
     out += svg_scatter(points, view);
     out += "<h2>Points</h2>\n<table><tr><th>point</th><th>GPU ms<br>(10 … 90 % by pass)</th><th>MiB</th>";
@@ -138,9 +139,10 @@ std::string chart_html(const std::vector<ChartPoint>& points, const ChartView& v
         out += "<th>" + escape_markup(heading_of(*metric)) + "</th>";
     out += "<th>picture</th><th>relative error, 0 … 50 %</th></tr>\n";
     for (const ChartPoint& p : points) {
-        out += fmt::format("<tr{}><td>{}<br><code>{}</code></td><td>{}</td><td>{:.1f}</td>",
+        out += fmt::format("<tr{}><td>{}<br><small>{}</small><br><code>{}</code></td><td>{}</td><td>{:.1f}</td>",
                            p.on_front ? " class=\"front\"" : "", escape_markup(p.task.label()),
-                           escape_markup(p.task.command()), cost_cell(p), double(p.bytes) / 1048576.0);
+                           escape_markup(transport_text(p.transport_bounces, p.parts)), escape_markup(p.task.command()),
+                           cost_cell(p), double(p.bytes) / 1048576.0);
         for (const Metric* metric : brief_metrics()) {
             out += "<td>" + metric_text(*metric, p.same_transport, p.absolute());
             if (!p.absolute()) out += "<br><small>" + metric_text(*metric, p.full, false) + "</small>";

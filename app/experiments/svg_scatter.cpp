@@ -1,5 +1,6 @@
 #include "app/experiments/svg_scatter.h"
 
+#include "app/experiments/transport.h"
 #include "core/printable.h"
 
 #include <algorithm>
@@ -99,8 +100,12 @@ double parameter_of(const ChartPoint& point, const std::string& against) {
     return 0;
 }
 
-/// Joins the points from left to right: the Pareto front as steps, or each graph's own as lines.
-std::string joined(std::vector<std::pair<double, double>> points, bool steps, const char* colour) {
+/// Of the fronts of different transports.
+const char* const k_dashes[] = {"4 3", "1 3", "10 3", "10 3 1 3", "6 2 1 2 1 2"};
+
+/// Joins the points from left to right: a Pareto front as steps, or each graph's own as lines.
+std::string joined(std::vector<std::pair<double, double>> points, bool steps, const char* colour,
+                   const char* dashes = k_dashes[0]) {
     std::sort(points.begin(), points.end());
     if (points.size() < 2) return "";
     std::string path;
@@ -111,7 +116,7 @@ std::string joined(std::vector<std::pair<double, double>> points, bool steps, co
         else
             path += steps ? fmt::format(" H{:.1f} V{:.1f}", x, y) : fmt::format(" L{:.1f} {:.1f}", x, y);
     }
-    return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-dasharray=\"4 3\"/>\n", path, colour);
+    return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-dasharray=\"{}\"/>\n", path, colour, dashes);
 }
 
 /// "RMSE in AO units", "|bias| in %, same transport", "1 - SSIM, same transport".
@@ -121,6 +126,10 @@ std::string axis_title(const Metric& metric, bool occlusion) {
     if (metric.unit == MetricUnit::share) title += " in %";
     if (occlusion) return title + (metric.unit == MetricUnit::image ? " in AO units" : ", occlusion");
     return title + ", same transport";
+}
+
+std::string transport_of(const ChartPoint& point) {
+    return transport_text(point.transport_bounces, point.parts);
 }
 
 std::string plot(const std::string& shot, const std::vector<const ChartPoint*>& points,
@@ -158,15 +167,17 @@ std::string plot(const std::string& shot, const std::vector<const ChartPoint*>& 
     out += fmt::format("<text transform=\"translate(16 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
                        top + (k_top + k_height - k_bottom) / 2, escape_markup(axis_title(metric, absolute)));
 
-    std::vector<std::pair<double, double>> front;
-    std::map<std::string, std::vector<std::pair<double, double>>> lines;
+    std::map<std::string, std::vector<std::pair<double, double>>> fronts, lines; // of transports; of graphs
     for (const ChartPoint* p : points) {
         const std::pair<double, double> at{x(place_of(p)), y(error_of(p))};
+        std::vector<std::pair<double, double>>& front = fronts[transport_of(*p)];
         if (p->on_front) front.push_back(at);
         lines[p->task.session.graph].push_back(at);
     }
     if (against.empty()) {
-        out += joined(front, true, "#888");
+        size_t index = 0;
+        for (const auto& [transport, front] : fronts)
+            out += joined(front, true, "#888", k_dashes[index++ % std::size(k_dashes)]);
     } else {
         for (const auto& [graph, line] : lines)
             out += joined(line, false, k_colours[size_t(colours.at(graph)) % std::size(k_colours)]);
@@ -175,7 +186,8 @@ std::string plot(const std::string& shot, const std::vector<const ChartPoint*>& 
         const std::string title =
             fmt::format("<title>{}\n{:.3g} ms, {}, {:.1f} MiB{}</title>", escape_markup(p->task.label()), p->total_ms,
                         escape_markup(metric.title + " " + metric_text(metric, p->same_transport, absolute)),
-                        double(p->bytes) / 1048576.0, p->on_front ? ", on the Pareto front" : "");
+                        double(p->bytes) / 1048576.0,
+                        p->on_front ? escape_markup(", on the Pareto front of " + transport_of(*p)) : "");
         out += mark(colours.at(p->task.session.graph), x(place_of(p)), y(error_of(p)), p->on_front ? 5 : 3.5,
                     p->on_front ? 1.0 : 0.35, title);
     }
@@ -187,6 +199,15 @@ std::string plot(const std::string& shot, const std::vector<const ChartPoint*>& 
     }
     out += fmt::format("<text x=\"{}\" y=\"{}\" fill=\"#666\">full: on the Pareto front</text>\n",
                        k_width - k_right + 12, top + k_top + 20 + 18 * row);
+    size_t index = 0;
+    for (const auto& [transport, front] : fronts) {
+        if (fronts.size() == 1 || !against.empty()) break;
+        const int at = top + k_top + 20 + 18 * ++row;
+        out += fmt::format("<path d=\"M{} {} h22\" stroke=\"#888\" stroke-dasharray=\"{}\"/>", k_width - k_right + 12,
+                           at - 4, k_dashes[index++ % std::size(k_dashes)]);
+        out += fmt::format("<text x=\"{}\" y=\"{}\" fill=\"#666\" font-size=\"10\">{}</text>\n", k_width - k_right + 38,
+                           at, escape_markup(transport));
+    }
     return out;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// A scatter of error against time as SVG, both axes logarithmic, with the Pareto front of each shot marked.
+// A scatter of error against time as SVG, both axes logarithmic, with the Pareto front of each shot and
+// light transport marked.
 
 #include "app/experiments/chart_point.h"
 

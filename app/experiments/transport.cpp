@@ -39,4 +39,19 @@ bool only_occlusion(const std::vector<std::string>& parts) {
     return !parts.empty() && std::none_of(parts.begin(), parts.end(), is_radiance);
 }
 
+std::string parts_text(const std::vector<std::string>& parts) {
+    std::vector<std::string> names;
+    for (const std::string& part : parts)
+        names.push_back(part.starts_with("out.") ? part.substr(4) : part);
+    return join(names, " + ");
+}
+
+std::string transport_text(int bounces, const std::vector<std::string>& parts) {
+    if (only_occlusion(parts)) return "occlusion: " + parts_text(parts);
+    const std::string orders = bounces < 0    ? "all light"
+                               : bounces == 1 ? "1 bounce"
+                                              : fmt::format("{} bounces", bounces);
+    return orders + ": " + parts_text(parts);
+}
+
 } // namespace bounce

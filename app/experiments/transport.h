@@ -20,4 +20,10 @@ OcclusionFalloff occlusion_falloff(const std::string& name);
 /// errors are told absolutely, and no bounces.
 bool only_occlusion(const std::vector<std::string>& parts);
 
+/// Names what is compared: errors of different light are no points of one front. "1 bounce: indirect_diffuse",
+/// "all light: radiance".
+std::string transport_text(int bounces, const std::vector<std::string>& parts);
+/// The parts of a sum without their "out.": "direct + emission".
+std::string parts_text(const std::vector<std::string>& parts);
+
 } // namespace bounce
