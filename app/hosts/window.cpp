@@ -1,5 +1,6 @@
 #include "app/hosts/window.h"
 
+#include "app/hosts/input_queue.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "gpu/shader_cache.h"
@@ -21,13 +22,9 @@ struct Window::Native {
     WindowOptions options;
     bool active = true;
     bool scale_changed = false;
-    std::vector<std::string> keys;
+    InputQueue input;
+    std::vector<KeyPress> keys;
     std::vector<std::string> dropped;
-    struct Release {
-        int key, scancode, modifiers;
-    };
-    std::vector<int> pressed;      ///< keys since the last frame
-    std::vector<Release> released; ///< after a press: told to ImGui after the frame, or it would miss a short press
     bool fullscreen = false;
     glm::ivec2 windowed_position{0}, windowed_size{1280, 720};
     glm::ivec2 again_size{1280, 720}; ///< while the window is being made again
@@ -70,30 +67,85 @@ std::string key_name(int key, int scancode) {
     return name;
 }
 
+int as_modifiers(int glfw) {
+    return (glfw & GLFW_MOD_SHIFT ? k_shift : 0) | (glfw & GLFW_MOD_CONTROL ? k_control : 0) |
+           (glfw & GLFW_MOD_ALT ? k_alt : 0) | (glfw & GLFW_MOD_SUPER ? k_super : 0);
+}
+
+/// The GLFW bit of a key that is a modifier, and the key of the other hand; 0 for other keys.
+struct ModifierKey {
+    int bit = 0, twin = 0;
+};
+ModifierKey modifier_of(int key) {
+    switch (key) {
+    case GLFW_KEY_LEFT_SHIFT:
+        return {GLFW_MOD_SHIFT, GLFW_KEY_RIGHT_SHIFT};
+    case GLFW_KEY_RIGHT_SHIFT:
+        return {GLFW_MOD_SHIFT, GLFW_KEY_LEFT_SHIFT};
+    case GLFW_KEY_LEFT_CONTROL:
+        return {GLFW_MOD_CONTROL, GLFW_KEY_RIGHT_CONTROL};
+    case GLFW_KEY_RIGHT_CONTROL:
+        return {GLFW_MOD_CONTROL, GLFW_KEY_LEFT_CONTROL};
+    case GLFW_KEY_LEFT_ALT:
+        return {GLFW_MOD_ALT, GLFW_KEY_RIGHT_ALT};
+    case GLFW_KEY_RIGHT_ALT:
+        return {GLFW_MOD_ALT, GLFW_KEY_LEFT_ALT};
+    case GLFW_KEY_LEFT_SUPER:
+        return {GLFW_MOD_SUPER, GLFW_KEY_RIGHT_SUPER};
+    case GLFW_KEY_RIGHT_SUPER:
+        return {GLFW_MOD_SUPER, GLFW_KEY_LEFT_SUPER};
+    default:
+        return {};
+    }
+}
+
 void on_key(GLFWwindow* handle, int key, int scancode, int action, int modifiers) {
     Window::Native& native = native_of(handle);
     native.active = true;
-    // Ctrl that is released in the frame in which A is pressed has been held over A.
-    if (action == GLFW_RELEASE && !native.pressed.empty())
-        native.released.push_back({key, scancode, modifiers});
-    else
-        ImGui_ImplGlfw_KeyCallback(handle, key, scancode, action, modifiers);
-    if (action != GLFW_PRESS) return;
-    native.pressed.push_back(key);
-    std::string name = key_name(key, scancode);
-    if (name.empty()) return;
-    std::string chord;
-    if (modifiers & GLFW_MOD_CONTROL) chord += "Ctrl+";
-    if (modifiers & GLFW_MOD_ALT) chord += "Alt+";
-    if (modifiers & GLFW_MOD_SHIFT) chord += "Shift+";
-    native.keys.push_back(chord + name);
+    if (action == GLFW_REPEAT) return; // ImGui repeats by itself
+    InputEvent event;
+    event.kind = InputEvent::Kind::key;
+    event.code = key;
+    event.down = action == GLFW_PRESS;
+    if (ModifierKey modifier = modifier_of(key); modifier.bit) {
+        event.kind = InputEvent::Kind::modifier;
+        // What GLFW tells are the modifiers before the event on some systems, and after it on others.
+        bool held = event.down || glfwGetKey(handle, modifier.twin) == GLFW_PRESS;
+        modifiers = held ? modifiers | modifier.bit : modifiers & ~modifier.bit;
+    }
+    event.modifiers = as_modifiers(modifiers);
+    std::string name = event.down ? key_name(key, scancode) : "";
+    if (!name.empty()) {
+        if (modifiers & GLFW_MOD_CONTROL) event.chord += "Ctrl+";
+        if (modifiers & GLFW_MOD_ALT) event.chord += "Alt+";
+        if (modifiers & GLFW_MOD_SHIFT) event.chord += "Shift+";
+        event.chord += name;
+    }
+    native.input.push(std::move(event));
 }
 
 /// '?' lies elsewhere on every layout: what counts is the character.
 void on_character(GLFWwindow* handle, unsigned int code) {
-    native_of(handle).active = true;
-    ImGui_ImplGlfw_CharCallback(handle, code);
-    if (code == '?') native_of(handle).keys.push_back("?");
+    Window::Native& native = native_of(handle);
+    native.active = true;
+    InputEvent event;
+    event.kind = InputEvent::Kind::text;
+    event.code = int(code);
+    if (code == '?') event.chord = "?";
+    native.input.push(std::move(event));
+}
+
+void push(GLFWwindow* handle, InputEvent event) {
+    Window::Native& native = native_of(handle);
+    native.active = true;
+    native.input.push(std::move(event));
+}
+
+/// Where the pointer is now.
+void push_pointer(GLFWwindow* handle) {
+    double x = 0, y = 0;
+    glfwGetCursorPos(handle, &x, &y);
+    push(handle, {InputEvent::Kind::motion, {float(x), float(y)}, 0, false, -1, ""});
 }
 
 void on_drop(GLFWwindow* handle, int count, const char** paths) {
@@ -106,27 +158,27 @@ void note(GLFWwindow* handle) {
     native_of(handle).active = true;
 }
 
-/// ImGui is told of each event from here: its backend would lose short presses of keys in slow frames.
+/// ImGui is told of events by our queue: its backend reads pointer and buttons when a frame begins, which is too late
+/// for what happened in a slow one.
 void set_callbacks(GLFWwindow* handle) {
+    using Kind = InputEvent::Kind;
     glfwSetKeyCallback(handle, on_key);
     glfwSetCharCallback(handle, on_character);
     glfwSetDropCallback(handle, on_drop);
     glfwSetMouseButtonCallback(handle, [](GLFWwindow* w, int button, int action, int modifiers) {
-        note(w);
-        ImGui_ImplGlfw_MouseButtonCallback(w, button, action, modifiers);
+        push(w, {Kind::button, {}, button, action == GLFW_PRESS, as_modifiers(modifiers), ""});
     });
     glfwSetScrollCallback(handle, [](GLFWwindow* w, double x, double y) {
-        note(w);
-        ImGui_ImplGlfw_ScrollCallback(w, x, y);
+        push(w, {Kind::wheel, {float(x), float(y)}, 0, false, -1, ""});
     });
-    glfwSetCursorPosCallback(handle, [](GLFWwindow* w, double, double) { note(w); });
+    glfwSetCursorPosCallback(handle, [](GLFWwindow* w, double x, double y) {
+        push(w, {Kind::motion, {float(x), float(y)}, 0, false, -1, ""});
+    });
     glfwSetCursorEnterCallback(handle, [](GLFWwindow* w, int entered) {
-        note(w);
-        ImGui_ImplGlfw_CursorEnterCallback(w, entered);
+        entered ? push_pointer(w) : push(w, {Kind::leave, {}, 0, false, -1, ""});
     });
     glfwSetWindowFocusCallback(handle, [](GLFWwindow* w, int focused) {
-        note(w);
-        ImGui_ImplGlfw_WindowFocusCallback(w, focused);
+        push(w, {Kind::focus, {}, 0, focused == GLFW_TRUE, -1, ""});
     });
     glfwSetMonitorCallback(ImGui_ImplGlfw_MonitorCallback);
     glfwSetWindowRefreshCallback(handle, note);
@@ -211,8 +263,8 @@ void Window::open(glm::ivec2 size, bool maximized) {
     ImGui_ImplGlfw_InitForOpenGL(handle, false);
     ImGui_ImplOpenGL3_Init("#version 430 core");
     native_->active = true;
-    native_->pressed.clear();
-    native_->released.clear();
+    native_->input.forget();
+    if (glfwGetWindowAttrib(handle, GLFW_HOVERED)) push_pointer(handle);
 }
 
 void Window::shut() {
@@ -258,7 +310,15 @@ bool Window::take_activity() {
     return std::exchange(native_->active, false);
 }
 
-std::vector<std::string> Window::take_keys() {
+bool Window::has_input() const {
+    return !native_->input.empty();
+}
+
+void Window::drop_input() {
+    native_->input.forget();
+}
+
+std::vector<KeyPress> Window::take_keys() {
     return std::exchange(native_->keys, {});
 }
 
@@ -330,10 +390,10 @@ void Window::set_title(const std::string& title) {
 }
 
 void Window::capture_pointer(bool captured) {
-    int mode = captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL;
-    if (glfwGetInputMode(native_->handle, GLFW_CURSOR) == GLFW_CURSOR_DISABLED || captured) {
-        glfwSetInputMode(native_->handle, GLFW_CURSOR, mode);
-    }
+    bool was = glfwGetInputMode(native_->handle, GLFW_CURSOR) == GLFW_CURSOR_DISABLED;
+    if (was == captured) return;
+    glfwSetInputMode(native_->handle, GLFW_CURSOR, captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+    if (!captured) push_pointer(native_->handle); // it is put back to where it was hidden, without an event
 }
 
 // --- frame -----------------------------------------------------------------------------------------------------------
@@ -341,16 +401,18 @@ void Window::capture_pointer(bool captured) {
 void Window::begin_frame() {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    ImGuiIO& io = ImGui::GetIO();
+    io.DeltaTime = std::max(io.DeltaTime, 1e-6f); // frames of input follow one another at once
+    native_->input.feed(io);
     ImGui::NewFrame();
-    native_->pressed.clear();
+    const bool in_popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+    for (std::string& chord : native_->input.take_chords())
+        native_->keys.push_back({std::move(chord), io.WantTextInput, in_popup});
 }
 
-void Window::end_frame() {
+void Window::end_frame(bool shown) {
+    if (!shown) return ImGui::EndFrame();
     ImGui::Render();
-    // Not between NewFrame and the widgets: they compare the modifiers with those that the frame began with.
-    for (const Native::Release& key : std::exchange(native_->released, {})) {
-        ImGui_ImplGlfw_KeyCallback(native_->handle, key.key, key.scancode, GLFW_RELEASE, key.modifiers);
-    }
     glm::ivec2 pixels = framebuffer_size();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, pixels.x, pixels.y);

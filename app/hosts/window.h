@@ -17,6 +17,13 @@ struct WindowOptions {
     bool maximized = false;
 };
 
+/// A key that was pressed, and what it was pressed over.
+struct KeyPress {
+    std::string chord;     ///< "F", "Ctrl+Shift+Z", "?", "F12", "Space"; letters as the keyboard's layout names them
+    bool in_text = false;  ///< a text field had the keyboard
+    bool in_popup = false; ///< a dropdown or menu was open
+};
+
 class Window {
   public:
     /// Opens a window with a robust OpenGL 4.6 core context, made current; Dear ImGui draws into it. Throws Error when
@@ -36,9 +43,13 @@ class Window {
     void close();
     /// Whether a person or the desktop did anything (input, resize, expose …) since this was last asked.
     bool take_activity();
-    /// Keys pressed since last asked, in order, as "F", "Ctrl+Shift+Z", "?", "F12", "Space"; letters as the keyboard's
-    /// layout names them. A press is here even when the key was released before the frame was drawn.
-    std::vector<std::string> take_keys();
+    /// Whether there are events that no frame has been given yet: each frame takes as many as it can tell apart
+    /// (input_queue.h).
+    bool has_input() const;
+    /// Forgets them, and what is held: nothing is drawn.
+    void drop_input();
+    /// Keys of the frames since last asked, in order. A press is here even when the key was released before its frame.
+    std::vector<KeyPress> take_keys();
     /// Whether the key at the place of W (A, S, D, Q, E) on an English keyboard is held, whatever it is labelled.
     bool place_is_down(char letter) const;
     std::vector<std::string> take_dropped_files();
@@ -59,7 +70,8 @@ class Window {
 
     // --- frame ---
     void begin_frame();
-    void end_frame(); ///< draws what ImGui holds and shows it
+    /// Draws what ImGui holds and shows it; a frame that only takes input need not be `shown`.
+    void end_frame(bool shown = true);
     void make_font_texture();
 
     // --- GPU resets ---

@@ -1,7 +1,9 @@
 // The camera in numbers, its bookmarks, the size of the picture, and time.
 #include "app/panels/panel.h"
 #include "app/ui/camera_control.h"
+#include "app/ui/marks.h"
 #include "app/ui/style.h"
+#include "app/ui/typed_number.h"
 #include "app/ui/widget_rects.h"
 
 #include <algorithm>
@@ -15,7 +17,10 @@ namespace {
 /// A loaded place as numbers of the file's coordinates.
 bool drag_place(const char* label, glm::vec3& place, const LoadedSpace& space, float speed) {
     glm::dvec3 file = space.to_file(place);
-    if (!ImGui::DragScalarN(label, ImGuiDataType_Double, &file.x, 3, speed, nullptr, nullptr, "%.3f")) return false;
+    bool changed = edit_number(label, file, [&](glm::dvec3& value) {
+        return ImGui::DragScalarN(label, ImGuiDataType_Double, &value.x, 3, speed, nullptr, nullptr, "%.3f");
+    });
+    if (!changed) return false;
     place = space.to_loaded(file);
     return true;
 }
@@ -29,9 +34,13 @@ void draw_numbers(PanelContext& context) {
     bool changed = drag_place("position", camera.position, space, speed);
     note_widget("camera.position");
     changed = drag_place("target", camera.target, space, speed) || changed;
-    changed = ImGui::DragFloat3("up", &camera.up.x, 0.005f, -1, 1, "%.3f") || changed;
+    changed = edit_number("up", camera.up,
+                          [](glm::vec3& up) { return ImGui::DragFloat3("up", &up.x, 0.005f, -1, 1, "%.3f"); }) ||
+              changed;
     float degrees = glm::degrees(camera.vfov);
-    if (ImGui::SliderFloat("field", &degrees, 5, 120, "%.1f°", ImGuiSliderFlags_AlwaysClamp)) {
+    if (edit_number("field", degrees, [](float& value) {
+            return ImGui::SliderFloat("field", &value, 5, 120, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
+        })) {
         camera.vfov = glm::radians(degrees);
         changed = true;
     }
@@ -157,24 +166,45 @@ void draw_time(PanelContext& context) {
     ImGui::TextColored(k_dim_colour, "%.3f s", double(session.time()));
 }
 
-void draw_history(const UiState& ui) {
-    if (ui.frame_ms.empty()) return;
-    std::vector<float> sorted = ui.frame_ms;
-    std::sort(sorted.begin(), sorted.end());
-    float median = sorted[sorted.size() / 2], most = sorted.back(), high = sorted[sorted.size() * 95 / 100];
-    std::string text = fmt::format("median {:.1f} ms, 95 % {:.1f}, worst {:.1f}", median, high, most);
-    // The scale ignores a lone outlier, such as a shader that was compiled.
-    float top = std::max(1.3f * high, 1.0f);
-    ImGui::PlotHistogram("##history", ui.frame_ms.data(), int(ui.frame_ms.size()), 0, nullptr, 0, top,
-                         {-1, ImGui::GetFontSize() * 4.5f});
-    ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
-    for (float budget : {16.7f, 33.3f}) {
-        if (budget > top) continue;
-        float y = max.y - budget / top * (max.y - min.y);
-        ImGui::GetWindowDrawList()->AddLine({min.x, y}, {max.x, y}, IM_COL32(255, 255, 255, 60));
+/// Newest at the right; those of earlier settings are dim. Lines at 16.7 and 33.3 ms.
+void draw_bars(const std::vector<FrameTime>& frames, float top) {
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    const ImVec2 size(std::max(ImGui::GetContentRegionAvail().x, 1.0f), ImGui::GetFontSize() * 4.5f);
+    ImGui::InvisibleButton("history", size);
+    note_widget("camera.frame_times");
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float bottom = from.y + size.y, right = from.x + size.x;
+    list.AddRectFilled(from, {right, bottom}, ImGui::GetColorU32(ImGuiCol_FrameBg));
+    const float width = std::max(size.x / 120, 2.0f);
+    float x = right;
+    for (auto frame = frames.rbegin(); frame != frames.rend() && x > from.x; ++frame, x -= width) {
+        const float height = std::max(size.y * std::min(frame->ms / top, 1.0f), 1.0f);
+        const ImU32 colour = ImGui::GetColorU32(ImGuiCol_PlotHistogram, frame->current ? 1.0f : 0.35f);
+        list.AddRectFilled({std::max(x - width + 1, from.x), bottom - height}, {x, bottom}, colour);
     }
-    ImGui::TextColored(k_dim_colour, "%s", text.c_str());
-    help("The last frames, panels and display included. Lines: 16.7 and 33.3 ms.");
+    for (float budget : {16.7f, 33.3f}) {
+        const float y = bottom - budget / top * size.y;
+        if (budget <= top) list.AddLine({from.x, y}, {right, y}, IM_COL32(255, 255, 255, 60));
+    }
+}
+
+void draw_history(const UiState& ui) {
+    if (ui.frame_times.empty()) return;
+    std::vector<float> all, current;
+    for (const FrameTime& frame : ui.frame_times) {
+        all.push_back(frame.ms);
+        if (frame.current) current.push_back(frame.ms);
+    }
+    std::sort(all.begin(), all.end());
+    std::sort(current.begin(), current.end());
+    // The scale ignores a lone outlier, such as a shader that was compiled.
+    draw_bars(ui.frame_times, std::max(1.3f * all[all.size() * 95 / 100], 1.0f));
+    help("The last frames, panels and display included; dim: of earlier settings. Lines: 16.7 and 33.3 ms.");
+    if (current.empty()) return ImGui::TextColored(k_dim_colour, "no frame of these settings yet");
+    const float median = current[current.size() / 2], high = current[current.size() * 95 / 100];
+    show_wrapped(fmt::format("{} frame{}: median {:.1f} ms, 95 % {:.1f}, worst {:.1f}", current.size(),
+                             current.size() == 1 ? "" : "s", median, high, current.back()),
+                 k_dim_colour);
 }
 
 } // namespace

@@ -1,8 +1,11 @@
 // The Compare panel: the picture against the truth.
 #include "app/experiments/chart.h"
 #include "app/experiments/point_content.h"
+#include "app/experiments/transport.h"
 #include "app/panels/panel.h"
-#include "app/ui/live_comparison.h"
+#include "app/ui/point_fronts.h"
+#include "app/ui/settings_key.h"
+#include "app/ui/style.h"
 #include "app/ui/widget_rects.h"
 #include "core/error.h"
 
@@ -10,8 +13,33 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <imgui.h>
+#include <set>
 
 namespace bounce {
+
+/// One for each transport, in the order of their names.
+static ImU32 colour_of(const std::vector<ComparePoint>& all, const std::string& transport) {
+    static const ImU32 colours[] = {IM_COL32(120, 170, 230, 220), IM_COL32(110, 200, 140, 220),
+                                    IM_COL32(205, 140, 190, 220), IM_COL32(210, 200, 110, 220),
+                                    IM_COL32(170, 170, 170, 220)};
+    std::set<std::string> names;
+    for (const ComparePoint& point : all)
+        names.insert(point.transport);
+    return colours[size_t(std::distance(names.begin(), names.find(transport))) % std::size(colours)];
+}
+
+/// The front of each transport, as steps.
+template <class ErrorOf, class PlaceOf>
+static void draw_fronts(const std::vector<ComparePoint>& all, ErrorOf error_of, PlaceOf place) {
+    for (const auto& [transport, front] : pareto_fronts(all, error_of)) {
+        const ImU32 colour = colour_of(all, transport);
+        for (size_t i = 1; i < front.size(); ++i) {
+            const ImVec2 from = place(all[front[i - 1]]), to = place(all[front[i]]);
+            ImGui::GetWindowDrawList()->AddLine(from, {to.x, from.y}, colour);
+            ImGui::GetWindowDrawList()->AddLine({to.x, from.y}, to, colour);
+        }
+    }
+}
 
 /// Error by the chosen metric against time, both logarithmic: earlier points, and the present one in the accent colour.
 static void draw_points(const LiveComparison& comparison, const ComparePoint& live) {
@@ -40,6 +68,7 @@ static void draw_points(const LiveComparison& comparison, const ComparePoint& li
               y = float(std::log(error_of(p) / low_y) / std::log(high_y / low_y));
         return ImVec2(at.x + x * size.x, at.y + (1 - y) * size.y);
     };
+    draw_fronts(all, error_of, place);
     const ComparePoint* hovered = nullptr;
     for (size_t i = 0; i < all.size(); ++i) {
         const ComparePoint& p = all[i];
@@ -47,7 +76,7 @@ static void draw_points(const LiveComparison& comparison, const ComparePoint& li
         bool is_live = i + 1 == all.size();
         ImVec2 centre = place(p), mouse = ImGui::GetIO().MousePos;
         list->AddCircleFilled(centre, is_live ? 5.0f : 3.5f,
-                              is_live ? IM_COL32(255, 170, 60, 255) : IM_COL32(120, 170, 230, 200));
+                              is_live ? IM_COL32(255, 170, 60, 255) : colour_of(all, p.transport));
         if (std::hypot(mouse.x - centre.x, mouse.y - centre.y) < 6) hovered = &p;
     }
     const double scale = metric.unit == MetricUnit::share ? 100 : 1;
@@ -55,8 +84,8 @@ static void draw_points(const LiveComparison& comparison, const ComparePoint& li
                                      scale * low_y, scale * high_y);
     list->AddText({at.x + 6, at.y + 4}, IM_COL32(150, 150, 150, 255), corner.c_str());
     if (hovered)
-        ImGui::SetTooltip("%s\n%.3g ms, %s %s", hovered->label.c_str(), hovered->ms, metric.title.c_str(),
-                          metric_text(metric, hovered->figures, occlusion).c_str());
+        ImGui::SetTooltip("%s\n%s\n%.3g ms, %s %s", hovered->label.c_str(), hovered->transport.c_str(), hovered->ms,
+                          metric.title.c_str(), metric_text(metric, hovered->figures, occlusion).c_str());
 }
 
 /// A row for each metric of the table; a click chooses it for the points.
@@ -119,9 +148,15 @@ void draw_compare_panel(PanelContext& context) {
     ImGui::Separator();
     static const char* const views[] = {"off", "split", "flicker", "error", "reference"};
     for (int i = 0; i < 5; ++i) {
-        if (i) ImGui::SameLine();
+        // Those that do not fit beside the others begin another line.
+        const float width =
+            ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize(views[i]).x;
+        const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+        if (i && ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width <= right) ImGui::SameLine();
         if (ImGui::RadioButton(views[i], int(comparison.view) == i)) comparison.view = CompareView(i);
         note_widget(fmt::format("compare.view.{}", views[i]));
+        help("Both sides are the same light with the same exposure and tone curve. The reference is the mean over each "
+             "pixel, the graph's picture its middle: edges differ.");
     }
     if (comparison.view == CompareView::split) {
         // Its own identity: the button that chooses the view is called "split" too.
@@ -135,9 +170,15 @@ void draw_compare_panel(PanelContext& context) {
 
     ImGui::Separator();
     ComparePoint live = comparison.live(session);
+    // A time of other settings makes no point.
+    const bool current = times_are_current(session.graph());
+    if (!current) live.ms = 0;
     draw_points(comparison, live);
+    ImGui::BeginDisabled(!current);
     if (ImGui::SmallButton("keep this point")) comparison.points.push_back(live);
+    ImGui::EndDisabled();
     note_widget("compare.keep");
+    help(current ? "Of the settings that are shown." : "The time of these settings has not been measured yet.");
     ImGui::SameLine();
     if (ImGui::SmallButton("clear")) comparison.points.clear();
     static char folder[512] = "";
@@ -150,8 +191,11 @@ void draw_compare_panel(PanelContext& context) {
             std::vector<std::string> left_out;
             for (const ChartPoint& point : points_of_one_program(load_points(folder), left_out)) {
                 if (point.task.session.shot != session.options().shot) continue;
-                comparison.points.push_back({point.task.label(), point.total_ms,
-                                             comparison.full_transport ? point.full : point.same_transport});
+                const bool all_light = comparison.full_transport;
+                comparison.points.push_back({point.task.label(),
+                                             all_light ? transport_text(-1, {"out.radiance"})
+                                                       : transport_text(point.transport_bounces, point.parts),
+                                             point.total_ms, all_light ? point.full : point.same_transport});
             }
             std::string told = fmt::format("{} points of this shot", comparison.points.size() - before);
             if (!left_out.empty()) told += fmt::format("; left out {} of other versions", left_out.size());

@@ -1,12 +1,13 @@
 // The graph: its passes in order, what each costs, what does not run and why.
 #include "app/panels/panel.h"
+#include "app/panels/parameter_edit.h"
 #include "app/panels/pass_rows.h"
 #include "app/timings.h"
 #include "app/ui/marks.h"
+#include "app/ui/open.h"
+#include "app/ui/settings_key.h"
 #include "app/ui/texture_view.h"
 #include "app/ui/widget_rects.h"
-#include "core/error.h"
-#include "core/paths.h"
 #include "core/text.h"
 #include "gpu/call_watch.h"
 
@@ -17,36 +18,12 @@ namespace bounce {
 
 namespace {
 
-std::vector<std::string> graph_names() {
-    std::vector<std::string> names;
-    std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(assets_folder() / "graphs", error)) {
-        if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-    }
-    std::sort(names.begin(), names.end());
-    return names;
-}
-
-void open_later(PanelContext& context, const std::string& name) {
-    Session& session = context.session;
-    UiState& ui = context.ui;
-    ui.window.ask([&session, &ui, name] {
-        try {
-            session.open_graph(name);
-            pin(ui, session.graph(), "");
-            ui.say("graph " + name);
-        } catch (const Error& error) {
-            ui.say(error.what(), true);
-        }
-    });
-}
-
 void draw_choice(PanelContext& context) {
     const GraphFile& file = context.session.graph().model().file();
     ImGui::SetNextItemWidth(-1);
     if (ImGui::BeginCombo("##graph", context.session.options().graph.c_str())) {
-        for (const std::string& name : graph_names()) {
-            if (ImGui::Selectable(name.c_str(), name == file.name)) open_later(context, name);
+        for (const std::string& name : asset_names("graphs")) {
+            if (ImGui::Selectable(name.c_str(), name == file.name)) ask_for_graph(context, name);
             note_widget("graph.choose." + name);
         }
         ImGui::EndCombo();
@@ -121,6 +98,14 @@ void draw_switch(PanelContext& context, const std::string& id) {
         std::vector<std::string> ids{id};
         if (on) ids = session.graph().model().off_before(id);
         switch_passes(session, ui, ids, on);
+        if (const std::string why = plan_refusal(session); !why.empty()) {
+            switch_passes(session, ui, ids, !on);
+            if (plan_refusal(session).empty()) {
+                ImGui::PopStyleVar();
+                return ui.say(fmt::format("{}: {} stays {}", why, id, on ? "off" : "on"), true);
+            }
+            switch_passes(session, ui, ids, on); // it was wrong before: this may be one of several steps to mend it
+        }
         context.undo.push({(on ? "switch on " : "switch off ") + id,
                            [&session, &ui, ids, on] { switch_passes(session, ui, ids, !on); },
                            [&session, &ui, ids, on] { switch_passes(session, ui, ids, on); }});
@@ -135,7 +120,7 @@ void draw_time(const PassTiming& timing, double slowest) {
     float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
     auto at = [&](double ms) { return from.x + width * float(slowest > 0 ? std::min(ms / slowest, 1.0) : 0.0); };
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    if (!timing.unchanged) {
+    if (!timing.unchanged && timing.samples > 0) {
         list.AddRectFilled(from, ImVec2(std::max(at(timing.median), from.x + 1), from.y + height),
                            ImGui::GetColorU32(k_bar_colour), 2);
     }
@@ -145,8 +130,10 @@ void draw_time(const PassTiming& timing, double slowest) {
     }
     if (timing.unchanged)
         show_text(fmt::format(" unchanged ({:.3f})", timing.last), k_dim_colour);
+    else if (timing.samples)
+        show_text(fmt::format(" {:.3f}", timing.median));
     else
-        show_text(timing.samples ? fmt::format(" {:.3f}", timing.median) : " -");
+        show_text(timing.last > 0 ? fmt::format(" {:.3f} (old)", timing.last) : " -", k_dim_colour);
 }
 
 std::string time_text(const PassTiming& timing) {
@@ -155,6 +142,9 @@ std::string time_text(const PassTiming& timing) {
                            "its last run took GPU {:.3f} ms",
                            timing.last);
     }
+    if (!timing.samples && timing.last > 0)
+        return fmt::format("GPU {:.3f} ms with earlier settings; the present ones have not been measured yet",
+                           timing.last);
     if (!timing.samples) return "not timed yet";
     return fmt::format("GPU {:.3f} ms, median of {} runs\n10 to 90 % lie from {:.3f} to {:.3f} ms", timing.median,
                        timing.samples, timing.low, timing.high);
@@ -184,7 +174,7 @@ void draw_skipped(PanelContext& context, const PassRow& row) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     ImVec2 from = ImGui::GetCursorScreenPos(), window = ImGui::GetWindowPos();
     float right = window.x + ImGui::GetWindowContentRegionMax().x;
-    list.PushClipRect(from, ImVec2(right, from.y + ImGui::GetTextLineHeight() + 2));
+    list.PushClipRect(from, ImVec2(right, from.y + ImGui::GetTextLineHeight() + 2), true); // within the panel's own
     list.AddText(from, ImGui::GetColorU32(k_dim_colour), row.skipped.c_str());
     list.PopClipRect();
 }
@@ -242,7 +232,12 @@ void draw_totals(const Session& session) {
     ImGui::TableNextColumn();
     show_text(fmt::format("all {} passes", graph.plan().passes.size()), k_dim_colour);
     ImGui::TableNextColumn();
-    show_text(fmt::format(" {:.3f}", graph.frame_ms()), k_dim_colour);
+    const bool current = times_are_current(graph);
+    show_text(fmt::format(" {:.3f}{}", whole_frame_ms(graph), current ? "" : " (old)"), k_dim_colour);
+    note_widget("graph.total_ms");
+    show_tooltip(fmt::format("The sum of all passes. Where unchanged ones do not run, a frame takes {:.3f} ms on the "
+                             "mean.",
+                             graph.frame_ms()));
     ImGui::TableNextColumn();
     show_right(fmt::format("{:.2f}", double(graph.plan().total_bytes()) / (1 << 20)));
     const GpuScene& scene = session.gpu_scene();

@@ -2,6 +2,7 @@
 
 #include "app/ui/edit.h"
 #include "app/ui/style.h"
+#include "app/ui/typed_number.h"
 #include "app/ui/widget_rects.h"
 #include "scene/keyframes.h"
 
@@ -14,6 +15,10 @@ namespace bounce {
 namespace {
 
 const char* const k_types[] = {"point", "spot", "directional"};
+
+bool edit_colour(glm::vec3& colour) {
+    return ImGui::ColorEdit3("colour", &colour.x, ImGuiColorEditFlags_Float);
+}
 
 int node_of_light(const Scene& scene, size_t light) {
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -104,12 +109,14 @@ class LightRow {
         // Colour and strength apart: strength is the brightest channel.
         float strength = std::max({light_.intensity.r, light_.intensity.g, light_.intensity.b});
         glm::vec3 colour = strength > 0 ? light_.intensity / strength : glm::vec3(1);
-        bool changed = ImGui::DragFloat("intensity", &strength, std::max(strength * 0.01f, 0.01f), 0, 1e9f, "%.4g",
-                                        ImGuiSliderFlags_AlwaysClamp);
+        bool changed = edit_number("intensity", strength, [](float& value) {
+            return ImGui::DragFloat("intensity", &value, std::max(value * 0.01f, 0.01f), 0, 1e9f, "%.4g",
+                                    ImGuiSliderFlags_AlwaysClamp);
+        });
         note_widget(fmt::format("light.{}.intensity", index_));
         help(light_.type == LightType::directional ? "W/m² at normal incidence, of the strongest channel."
                                                    : "W/sr of the strongest channel.");
-        changed = ImGui::ColorEdit3("colour", &colour.x, ImGuiColorEditFlags_Float) || changed;
+        changed = edit_number("colour", colour, edit_colour) || changed;
         if (!changed) return;
         Light after = light_;
         // Black keeps a trace of its colour, so that turning the strength up again brings it back.
@@ -119,8 +126,12 @@ class LightRow {
 
     void draw_cones() {
         float inner = glm::degrees(light_.inner_cone), outer = glm::degrees(light_.outer_cone);
-        bool changed = ImGui::SliderFloat("inner cone", &inner, 0, 89, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
-        bool outer_changed = ImGui::SliderFloat("outer cone", &outer, 0.5f, 90, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
+        bool changed = edit_number("inner cone", inner, [](float& value) {
+            return ImGui::SliderFloat("inner cone", &value, 0, 89, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
+        });
+        bool outer_changed = edit_number("outer cone", outer, [](float& value) {
+            return ImGui::SliderFloat("outer cone", &value, 0.5f, 90, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
+        });
         note_widget(fmt::format("light.{}.outer_cone", index_));
         help("Half-angles; the inner one stays less than the outer one.");
         if (!changed && !outer_changed) return;
@@ -139,9 +150,11 @@ class LightRow {
     void draw_size() {
         bool directional = light_.type == LightType::directional;
         float size = directional ? glm::degrees(light_.angular_radius) : light_.radius;
-        bool changed = directional
-                           ? ImGui::DragFloat("radius", &size, 0.02f, 0, 45, "%.3g°", ImGuiSliderFlags_AlwaysClamp)
-                           : ImGui::DragFloat("radius", &size, 0.005f, 0, 1e6f, "%.3g m", ImGuiSliderFlags_AlwaysClamp);
+        bool changed = edit_number("radius", size, [directional](float& value) {
+            return directional
+                       ? ImGui::DragFloat("radius", &value, 0.02f, 0, 45, "%.3g°", ImGuiSliderFlags_AlwaysClamp)
+                       : ImGui::DragFloat("radius", &value, 0.005f, 0, 1e6f, "%.3g m", ImGuiSliderFlags_AlwaysClamp);
+        });
         help("Of the light itself: only soft shadows and the reference use it.");
         if (!changed) return;
         Light after = light_;
@@ -159,12 +172,18 @@ class LightRow {
         float diagonal = std::max(context_.session.facts().bounds.diagonal(), 1e-3f) *
                          float(context_.session.shot().scene.space.unit);
         if (light_.type != LightType::directional) {
-            changed = ImGui::DragScalarN("position", ImGuiDataType_Double, &after.position.x, 3, 0.002f * diagonal,
-                                         nullptr, nullptr, "%.3f");
+            changed = edit_number("position", after.position, [diagonal](glm::dvec3& value) {
+                return ImGui::DragScalarN("position", ImGuiDataType_Double, &value.x, 3, 0.002f * diagonal, nullptr,
+                                          nullptr, "%.3f");
+            });
             note_widget(fmt::format("light.{}.position", index_));
         }
         if (light_.type != LightType::point) {
-            changed = ImGui::DragFloat3("direction", &after.direction.x, 0.005f, -1, 1, "%.3f") || changed;
+            changed = edit_number("direction", after.direction,
+                                  [](glm::vec3& value) {
+                                      return ImGui::DragFloat3("direction", &value.x, 0.005f, -1, 1, "%.3f");
+                                  }) ||
+                      changed;
             help("The way the light travels.");
         }
         ImGui::EndDisabled();

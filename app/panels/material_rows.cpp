@@ -2,6 +2,7 @@
 
 #include "app/ui/edit.h"
 #include "app/ui/style.h"
+#include "app/ui/typed_number.h"
 #include "app/ui/widget_rects.h"
 
 #include <algorithm>
@@ -21,14 +22,25 @@ std::string name_of(const Material& material, size_t index) {
     return material.name.empty() ? fmt::format("material {}", index + 1) : material.name;
 }
 
+auto edit_colour(const char* label) {
+    return [label](glm::vec3& colour) { return ImGui::ColorEdit3(label, &colour.x, ImGuiColorEditFlags_Float); };
+}
+
+auto edit_share(const char* label) {
+    return
+        [label](float& value) { return ImGui::SliderFloat(label, &value, 0, 1, "%.3f", ImGuiSliderFlags_AlwaysClamp); };
+}
+
 void draw_emission(Material& after, bool& changed) {
     // Colour and strength apart, as for lights.
     float strength = std::max({after.emission.r, after.emission.g, after.emission.b});
     glm::vec3 colour = strength > 0 ? after.emission / strength : glm::vec3(1);
-    bool now = ImGui::DragFloat("emission", &strength, std::max(strength * 0.01f, 0.01f), 0, 1e7f, "%.4g",
+    bool now = edit_number("emission", strength, [](float& value) {
+        return ImGui::DragFloat("emission", &value, std::max(value * 0.01f, 0.01f), 0, 1e7f, "%.4g",
                                 ImGuiSliderFlags_AlwaysClamp);
+    });
     help("Radiance of the strongest channel, W/(sr·m²).");
-    if (strength > 0) now = ImGui::ColorEdit3("emitted", &colour.x, ImGuiColorEditFlags_Float) || now;
+    if (strength > 0) now = edit_number("emitted", colour, edit_colour("emitted")) || now;
     if (now) after.emission = strength > 0 ? glm::clamp(colour, glm::vec3(0), glm::vec3(1)) * strength : glm::vec3(0);
     changed = changed || now;
 }
@@ -39,12 +51,16 @@ void draw_material(PanelContext& context, size_t index) {
     Material after = before;
     bool changed = false;
     ImGui::PushItemWidth(-ImGui::GetFontSize() * 5.5f);
-    changed = ImGui::ColorEdit3("base colour", &after.base_colour.x, ImGuiColorEditFlags_Float) || changed;
+    glm::vec3 base(after.base_colour);
+    if (edit_number("base colour", base, edit_colour("base colour"))) {
+        after.base_colour = glm::vec4(base, after.base_colour.a);
+        changed = true;
+    }
     note_widget(fmt::format("material.{}.base_colour", index));
     if (before.base_colour_texture.texture >= 0) help("Multiplies the texture.");
-    changed = ImGui::SliderFloat("metallic", &after.metallic, 0, 1, "%.3f", ImGuiSliderFlags_AlwaysClamp) || changed;
+    changed = edit_number("metallic", after.metallic, edit_share("metallic")) || changed;
     if (before.metallic_roughness_texture.texture >= 0) help("Multiplies the texture.");
-    changed = ImGui::SliderFloat("roughness", &after.roughness, 0, 1, "%.3f", ImGuiSliderFlags_AlwaysClamp) || changed;
+    changed = edit_number("roughness", after.roughness, edit_share("roughness")) || changed;
     help("Perceptual; α is its square.");
     draw_emission(after, changed);
     ImGui::PopItemWidth();

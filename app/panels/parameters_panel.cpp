@@ -3,6 +3,7 @@
 #include "app/panels/parameter_edit.h"
 #include "app/panels/parameter_widget.h"
 #include "app/ui/marks.h"
+#include "app/ui/typed_number.h"
 #include "app/ui/widget_rects.h"
 
 #include <algorithm>
@@ -27,19 +28,34 @@ ImVec4 origin_colour(ParameterOrigin origin) {
     return {};
 }
 
+/// Yours, the preset's (the graph file's), or the default.
+const char* whose(ParameterOrigin origin) {
+    switch (origin) {
+    case ParameterOrigin::default_value:
+        return "default";
+    case ParameterOrigin::graph:
+        return "preset: from the graph file";
+    case ParameterOrigin::command_line:
+        return "mine: from the command line";
+    case ParameterOrigin::panel:
+        return "mine: set in the window";
+    }
+    return "";
+}
+
 std::string help_text(const std::string& name, const std::string& type, const Parameter& p) {
     const ParameterInfo& info = p.info;
     std::string text = name + (info.help.empty() ? "" : ": " + info.help);
     std::string range = range_text(info);
     if (!range.empty()) text += "\nrange " + range + (info.unit.empty() ? "" : " " + info.unit);
     text += "\ndefault " + to_text(info, info.default_value);
-    text += fmt::format("\nnow {}, set by {}", to_text(info, p.value),
-                        p.origin == ParameterOrigin::default_value ? "nobody (the default)" : to_string(p.origin));
+    text += fmt::format("\nnow {}: {}", to_text(info, p.value), whose(p.origin));
     if (info.is_static) text += "\ncompiled in: a change compiles the shader again, when you let go";
+    if (!info.is_static && !info.in_shader) text += "\nit shapes what the pass makes: it changes when you let go";
     text += "\ndeclared in " + (!info.where.empty()          ? info.where
                                 : name.starts_with("graph.") ? "the graph file"
                                                              : "pass type " + type);
-    return text;
+    return text + "\nA double click on the name resets it.";
 }
 
 /// A coloured square that tells who set the value, and opens the menu.
@@ -51,13 +67,19 @@ void draw_mark(const Parameter& parameter) {
     ImVec4 colour = origin_colour(parameter.origin);
     ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(from.x, y), ImVec2(from.x + side, y + side),
                                               ImGui::GetColorU32(colour), 2);
-    show_tooltip(fmt::format("set by: {}\nClick to reset or to copy.", to_string(parameter.origin)));
+    show_tooltip(std::string(whose(parameter.origin)) + "\nClick to reset or to copy.");
 }
 
 void draw_menu(PanelContext& context, const std::string& name, const Parameter& parameter) {
     if (!ImGui::BeginPopup("menu")) return;
     show_text(name, k_dim_colour);
-    if (ImGui::MenuItem("Reset")) reset_parameters(context, {name});
+    const GraphModel& model = context.session.graph().model();
+    const ParameterText home = home_of(model, name.substr(0, name.find('.')), parameter);
+    const bool preset = home.origin == ParameterOrigin::graph;
+    show_text(whose(parameter.origin), origin_colour(parameter.origin));
+    if (ImGui::MenuItem(
+            fmt::format("Reset to {}: {}###reset", preset ? "the preset" : "the default", home.text).c_str()))
+        reset_parameters(context, {name});
     note_widget(name + ".reset");
     if (ImGui::MenuItem("Copy as --set")) {
         std::string option = "--set " + name + "=" + to_text(parameter.info, parameter.value);
@@ -73,27 +95,33 @@ void draw_value(PanelContext& context, const std::string& id, const Parameter& p
     const ParameterInfo& info = parameter.info;
     const ParameterText before = text_of(id, parameter);
     ParameterEdit& edit = context.ui.edit;
-    bool held = info.is_static && edit.name == before.name; // what is compiled in waits for the end of the drag
+    // What is typed waits for its end; so does a drag of what has the graph planned or a shader compiled again.
+    const bool shapes = shapes_plan(context.session.graph(), before.name, parameter);
+    const bool held = edit.name == before.name && (shapes || edit.waits);
     ParameterValue value = held && edit.value.index() == parameter.value.index() ? edit.value : parameter.value;
     bool at_once = false;
-    bool changed = draw_parameter_widget(before.name, info, value, at_once);
+    const bool changed = draw_parameter_widget(before.name, info, value, at_once);
     note_widget(before.name);
-    bool begun = ImGui::IsItemActivated(), ended = ImGui::IsItemDeactivated(),
-         edited = ImGui::IsItemDeactivatedAfterEdit();
+    const bool begun = ImGui::IsItemActivated(), ended = ImGui::IsItemDeactivated(),
+               edited = ImGui::IsItemDeactivatedAfterEdit(), typing = is_typing();
     if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) ImGui::OpenPopup("menu");
 
-    if (begun || (changed && edit.name != before.name)) edit = {before.name, before.text, before.origin, value};
-    ParameterText after{before.name, to_text(info, value), ParameterOrigin::panel};
-    if (changed) {
-        edit.value = value;
-        if (at_once || !info.is_static) apply(context.session, context.ui, {after});
+    if (begun || (changed && edit.name != before.name)) {
+        finish_edit(context); // another that was left by this one
+        edit = {before.name, before.text, before.origin, value, shapes || at_once};
     }
-    bool final_change = (changed && at_once) || (edited && edit.name == before.name);
-    if (final_change && after.text != edit.before) {
-        if (info.is_static && !at_once) apply(context.session, context.ui, {after});
-        push_undo(context, before.name, {{edit.name, edit.before, edit.origin}}, {after});
-    }
-    if ((final_change || ended) && edit.name == before.name) edit = {};
+    if (edit.name != before.name) return;
+    const bool typed = typing || (edit.waits && !shapes && !at_once);
+    edit.waits = edit.waits || typing;
+    if (changed) edit.value = value;
+    if (changed && !edit.waits)
+        apply(context.session, context.ui, {{before.name, to_text(info, value), ParameterOrigin::panel}});
+    if (ended && typed && typing_was_cancelled())
+        edit = {};
+    else if ((changed && at_once) || edited)
+        finish_edit(context);
+    else if (ended)
+        edit = {};
 }
 
 void draw_row(PanelContext& context, const NamedParameter& named, const std::string& type) {
@@ -108,6 +136,8 @@ void draw_row(PanelContext& context, const NamedParameter& named, const std::str
     ImGui::AlignTextToFramePadding();
     show_text(parameter.info.name);
     if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) ImGui::OpenPopup("menu");
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) reset_parameters(context, {name});
+    note_widget(name + ".name");
     show_tooltip(help_text(name, type, parameter));
     if (!parameter.info.unit.empty()) {
         ImGui::SameLine(0, 5);
@@ -124,6 +154,28 @@ bool contains(const std::string& text, const std::string& part) {
     return std::search(text.begin(), text.end(), part.begin(), part.end(), [](unsigned char a, unsigned char b) {
                return std::tolower(a) == std::tolower(b);
            }) != text.end();
+}
+
+/// What the marks mean, and how many values are whose.
+void draw_legend(const std::vector<NamedParameter>& all) {
+    size_t mine = 0, preset = 0;
+    for (const NamedParameter& named : all) {
+        mine += named.parameter->origin >= ParameterOrigin::command_line;
+        preset += named.parameter->origin == ParameterOrigin::graph;
+    }
+    const std::pair<ParameterOrigin, std::string> entries[] = {
+        {ParameterOrigin::panel, fmt::format("{} mine", mine)},
+        {ParameterOrigin::graph, fmt::format("{} preset", preset)},
+        {ParameterOrigin::default_value, fmt::format("{} default", all.size() - mine - preset)}};
+    for (const auto& [origin, text] : entries) {
+        if (origin != entries[0].first) ImGui::SameLine();
+        show_text("■", origin_colour(origin));
+        ImGui::SameLine(0, 3);
+        show_text(text, k_dim_colour);
+        show_tooltip(origin == ParameterOrigin::panel   ? "Set by you: in the window, or (green) on the command line."
+                     : origin == ParameterOrigin::graph ? "Set by the graph file."
+                                                        : "As it was declared.");
+    }
 }
 
 void draw_tools(PanelContext& context, const std::vector<NamedParameter>& all) {
@@ -156,7 +208,9 @@ void draw_tools(PanelContext& context, const std::vector<NamedParameter>& all) {
         ui.say("copied: " + options);
     }
     note_widget("parameters.copy_all");
+    show_tooltip("Those that are mine.");
     ImGui::EndDisabled();
+    draw_legend(all);
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "app/ui/edit.h"
 #include "app/ui/marks.h"
 #include "app/ui/open.h"
+#include "app/ui/typed_number.h"
 #include "app/ui/widget_rects.h"
 #include "core/text.h"
 #include "scene/describe.h"
@@ -91,7 +92,9 @@ void draw_surroundings(PanelContext& context) {
     };
     ImGui::PushItemWidth(-ImGui::GetFontSize() * 6);
     glm::vec3 radiance = shot.environment.radiance;
-    if (ImGui::ColorEdit3("environment", &radiance.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR)) {
+    if (edit_number("environment", radiance, [](glm::vec3& value) {
+            return ImGui::ColorEdit3("environment", &value.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR);
+        })) {
         edit(context, "environment", shot.environment.radiance, glm::max(radiance, glm::vec3(0)),
              [&session, changed](const glm::vec3& value) {
                  session.shot().environment.radiance = value;

@@ -87,6 +87,10 @@ void draw_stability_panel(PanelContext& context) {
                           measurement->which().ladder.size()));
     show_wrapped(measurement->which().about, k_dim_colour);
     if (!run.problem().empty()) show_wrapped("not measured: " + run.problem(), k_error_colour);
+    if (run.stale(context.session)) {
+        show_wrapped("of earlier settings: the graph or its values are others now", k_warning_colour);
+        note_widget("stability.stale");
+    }
     draw_curve(*measurement);
     draw_values(*measurement);
     if (!run.running()) return;

@@ -9,6 +9,7 @@ namespace bounce {
 enum class KeyCommand {
     none, ///< a gesture that the viewport itself handles
     show_keys,
+    palette,
     show_log,
     show_left,
     show_right,

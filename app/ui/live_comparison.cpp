@@ -2,6 +2,7 @@
 
 #include "app/capture.h"
 #include "app/experiments/transport.h"
+#include "app/ui/settings_key.h"
 #include "core/error.h"
 #include "core/heat_map.h"
 #include "core/text.h"
@@ -116,7 +117,6 @@ bool LiveComparison::update(const Session& session) {
     truth_ = part_of(reference_, part_, "the reference");
     parts_ = read_parts(session);
     own_ = part_or_black(parts_, part_, truth_);
-    if (const GpuTexture* display = session.graph().texture("out.display")) display_ = read_layer(*display);
     if (own_.pixels.size() != truth_.pixels.size()) return changed;
     measure(false);
     return true;
@@ -147,7 +147,10 @@ ComparePoint LiveComparison::live(const Session& session) const {
     std::string label = session.options().graph;
     for (const auto& [name, value] : session.changed_parameters(ParameterOrigin::command_line))
         label += " " + name + "=" + value;
-    return {label, session.graph().frame_ms(), figures_};
+    const Transport& transport = session.graph().model().file().transport;
+    const std::string what =
+        full_transport ? transport_text(-1, {"out.radiance"}) : transport_text(transport.bounces, transport.parts);
+    return {label, what, whole_frame_ms(session.graph()), figures_};
 }
 
 void LiveComparison::release_gpu() {
@@ -155,11 +158,16 @@ void LiveComparison::release_gpu() {
     composed_.clear();
 }
 
+/// Half a second each.
+static bool is_second_half(double seconds) {
+    return std::fmod(seconds, 1.0) >= 0.5;
+}
+
 const GpuTexture* LiveComparison::picture(const Session& session, double seconds) {
     if (view == CompareView::off) return nullptr;
     update(session); // the panel may be hidden
     if (!has_reference() || stale(session) || own_.empty()) return nullptr;
-    bool second = view == CompareView::flicker && std::fmod(seconds, 1.0) >= 0.5;
+    bool second = view == CompareView::flicker && is_second_half(seconds);
     std::string wanted =
         fmt::format("{} {} {} {} {} {}", int(view), split, second, error_range, measured_frames_, samples_);
     if (wanted != composed_ || !picture_) {
@@ -169,25 +177,56 @@ const GpuTexture* LiveComparison::picture(const Session& session, double seconds
     return &picture_;
 }
 
-/// The tone map of the graph, for the reference: exposure and curve of its pass `tonemap`, where it has one.
-static void display_pixel(const float* radiance, float scale, bool aces_like, uint8_t* out) {
-    for (int c = 0; c < 3; ++c) {
-        float x = radiance[c] * scale;
-        if (aces_like) x = x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f);
-        out[c] = uint8_t(std::lround(255 * srgb_encode(std::clamp(x, 0.0f, 1.0f))));
+namespace {
+
+/// How the graph shows light: exposure and curve of its pass `tonemap`, where it has one. Occlusion is shown as it is.
+struct Tone {
+    float exposure = 0; ///< stops
+    bool aces_like = false;
+    bool light = true;
+
+    Tone(const Session& session, bool is_light) : light(is_light) {
+        const PassNode* tonemap = is_light ? session.graph().model().find_node("tonemap") : nullptr;
+        if (!tonemap) return;
+        if (const Parameter* p = tonemap->parameters.find("exposure")) exposure = std::get<float>(p->value);
+        if (const Parameter* p = tonemap->parameters.find("curve")) aces_like = std::get<int>(p->value) == 1;
     }
-    out[3] = 255;
+    uint8_t shown(float value) const {
+        float x = value * std::exp2(exposure);
+        if (aces_like) x = x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f);
+        if (!std::isfinite(x)) x = 0;
+        return uint8_t(std::lround(255 * srgb_encode(std::clamp(x, 0.0f, 1.0f))));
+    }
+    std::string text() const {
+        if (!light) return "as it is";
+        return fmt::format("exposure {:g}, {}", exposure, aces_like ? "curve aces_like" : "no curve");
+    }
+};
+
+} // namespace
+
+std::string LiveComparison::caption(const Session& session, double seconds) const {
+    const std::string light = parts_text(bounce::split(part_, '+'));
+    const std::string how = light + ", " + Tone(session, !only_occlusion()).text();
+    switch (view) {
+    case CompareView::split:
+        return "graph | reference: " + how;
+    case CompareView::flicker:
+        return std::string(is_second_half(seconds) ? "reference" : "graph") + ": " + how;
+    case CompareView::reference:
+        return "reference: " + how;
+    case CompareView::error:
+        return fmt::format("relative error of {}, 0 to {:.0f} %", light, 100 * error_range);
+    case CompareView::off:
+        break;
+    }
+    return {};
 }
 
+/// Both sides are the same light, toned alike.
 void LiveComparison::compose(const Session& session, bool second_half) {
     glm::ivec2 size = session.size();
-    float scale = 1;
-    bool aces_like = false;
-    if (const PassNode* tonemap = session.graph().model().find_node("tonemap")) {
-        if (const Parameter* exposure = tonemap->parameters.find("exposure"))
-            scale = std::exp2(std::get<float>(exposure->value));
-        if (const Parameter* curve = tonemap->parameters.find("curve")) aces_like = std::get<int>(curve->value) == 1;
-    }
+    const Tone tone(session, !only_occlusion());
     Image8 image{size.x, size.y, std::vector<uint8_t>(size_t(size.x) * size.y * 4, 255)};
     if (view == CompareView::error) {
         image = heat_map(relative_error_map(own_, truth_), 0, std::max(error_range, 1e-3f), mask_);
@@ -197,18 +236,19 @@ void LiveComparison::compose(const Session& session, bool second_half) {
                                                                     : 0;
         for (int y = 0; y < size.y; ++y) {
             for (int x = 0; x < size.x; ++x) {
-                uint8_t* out = &image.rgba[(size_t(y) * size.x + x) * 4];
-                if (x < border && !display_.empty()) {
-                    for (int c = 0; c < 3; ++c)
-                        out[c] = uint8_t(std::lround(255 * display_.at(x, y)[c]));
-                } else {
-                    display_pixel(truth_.at(x, y), scale, aces_like, out);
-                }
+                const Image& side = x < border ? own_ : truth_;
+                for (int c = 0; c < 3; ++c)
+                    image.rgba[(size_t(y) * size.x + x) * 4 + size_t(c)] =
+                        tone.shown(side.at(x, y)[std::min(c, side.channels - 1)]);
             }
         }
     }
     TextureDesc desc{TextureKind::texture_2d, GL_RGBA8, {size.x, size.y, 1}, 1};
-    if (!picture_ || picture_.desc() != desc) picture_ = GpuTexture(desc, "comparison");
+    if (!picture_ || picture_.desc() != desc) {
+        picture_ = GpuTexture(desc, "comparison");
+        // Magnified as the graph's own picture is.
+        glTextureParameteri(picture_.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    }
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     glTextureSubImage2D(picture_.id(), 0, 0, 0, size.x, size.y, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
 }

@@ -18,6 +18,7 @@ enum class CompareView { off, split, flicker, error, reference };
 /// One measured state of the picture, for the chart.
 struct ComparePoint {
     std::string label;
+    std::string transport; ///< what is compared: points of one are a front
     double ms = 0;
     MetricValues figures;
 };
@@ -54,6 +55,8 @@ class LiveComparison {
     /// Adds the metrics of display values for the present pair; they take their time, so only when asked for.
     void measure_shown();
 
+    /// What the view shows of which light, with which tone curve.
+    std::string caption(const Session& session, double seconds) const;
     /// The rgba8 picture of the chosen view at the session's size; null when there is none to show.
     const GpuTexture* picture(const Session& session, double seconds);
     void release_gpu();
@@ -80,7 +83,7 @@ class LiveComparison {
     std::string started_key_, reference_key_;
     std::string started_part_, part_; ///< what is compared: "out.a+out.b"
     LayeredImage reference_, parts_;
-    Image truth_, own_, display_; ///< summed parts of both, and the graph's own out.display
+    Image truth_, own_; ///< summed parts of both
     Mask mask_;
     MetricValues figures_;
     int samples_ = 0;

@@ -1,5 +1,7 @@
 #include "app/ui/open.h"
 
+#include "app/ui/texture_view.h"
+#include "app/ui/work.h"
 #include "core/error.h"
 #include "core/json_text.h"
 #include "core/paths.h"
@@ -27,27 +29,81 @@ SceneBaseline baseline_of(const Session& session) {
     return baseline;
 }
 
+static void open_shot(PanelContext& context, const std::string& name, bool as_in_its_file) {
+    Session& session = context.session;
+    UiState& ui = context.ui;
+    keep_work(context);
+    const std::string left = session.shot().name, left_key = shot_key(session);
+    const bool kept = ui.window.work.shots.contains(left_key);
+    session.open_shot(name);
+    if (as_in_its_file) ui.window.work.shots.erase(shot_key(session));
+    context.undo.clear();
+    ui.window.opened = baseline_of(session);
+    ui.window.capture.saved_shot.clear();
+    ui.cursor_locked = false;
+    ui.cursor_pixel = glm::ivec2(-1);
+    ui.redraw();
+    std::string told = "opened " + session.shot().path.string();
+    ui.say(told);
+    const std::string restored = restore_shot_work(context);
+    if (ui.notice_is_error) return;
+    if (!restored.empty()) told += " with your edits: " + restored + " (F5: as in its file)";
+    if (kept && left_key != shot_key(session)) told += "; your edits of " + left + " are kept";
+    ui.say(told);
+}
+
 void ask_for_shot(PanelContext& context, const std::string& name) {
     context.ui.say("opening " + name + " …");
-    context.ui.window.ask([&session = context.session, &ui = context.ui, &undo = context.undo, name] {
-        session.open_shot(name);
-        undo.clear();
-        ui.window.opened = baseline_of(session);
-        ui.window.capture.saved_shot.clear();
-        ui.cursor_locked = false;
-        ui.cursor_pixel = glm::ivec2(-1);
-        ui.redraw();
-        ui.say("opened " + session.shot().path.string());
-    });
+    context.ui.window.ask([context, name]() mutable { open_shot(context, name, false); });
+}
+
+void ask_for_shot_again(PanelContext& context) {
+    context.ui.say("reading the shot again …");
+    context.ui.window.ask(
+        [context]() mutable { open_shot(context, std::string(context.session.options().shot), true); });
+}
+
+/// The values of `mine` that the present graph has taken over, and those that it has not, as people write them.
+static std::pair<std::vector<std::string>, std::vector<std::string>> taken_over(const GraphModel& model,
+                                                                                const GraphValues& mine) {
+    std::vector<std::string> taken, left;
+    for (const GraphValues::Value& value : mine.parameters) {
+        const Parameter* now = model.find_parameter(value.name);
+        const bool is = now && now->origin == value.origin && to_text(now->info, now->value) == value.text;
+        (is ? taken : left).push_back(value.name + "=" + value.text);
+    }
+    for (const auto& [pass, on] : mine.switches) {
+        const PassNode* node = model.find_node(pass);
+        (node && node->enabled == on ? taken : left).push_back(pass + (on ? " on" : " off"));
+    }
+    return {taken, left};
+}
+
+static void open_graph(PanelContext& context, const std::string& name) {
+    Session& session = context.session;
+    UiState& ui = context.ui;
+    keep_work(context);
+    const GraphValues mine = session.graph().model().values();
+    const std::string left_name = session.graph().model().file().name;
+    session.open_graph(name);
+    const auto [taken, left] = taken_over(session.graph().model(), mine);
+    std::set<std::string> given; // what was set last counts
+    for (const GraphValues::Value& value : mine.parameters)
+        given.insert(value.name);
+    for (const auto& [pass, on] : mine.switches)
+        given.insert(pass);
+    const std::string restored = restore_graph_work(context, given);
+    pin(ui, session.graph(), "");
+    std::string told = "opened graph " + session.graph().model().file().name;
+    if (!taken.empty()) told += "; your edits went along: " + few_of(taken);
+    if (!restored.empty()) told += "; there again: " + restored;
+    if (!left.empty()) told += "; kept for " + left_name + ": " + few_of(left);
+    ui.say(told);
 }
 
 void ask_for_graph(PanelContext& context, const std::string& name) {
     context.ui.say("opening graph " + name + " …");
-    context.ui.window.ask([&session = context.session, &ui = context.ui, name] {
-        session.open_graph(name);
-        ui.redraw();
-        ui.say("opened " + session.graph().model().file().path.string());
-    });
+    context.ui.window.ask([context, name]() mutable { open_graph(context, name); });
 }
 
 void ask_for_file(PanelContext& context, const std::string& path) {

@@ -50,13 +50,7 @@ const Node* node_of(const Scene& scene, int light) {
 }
 
 bool lights_edited(const Scene& scene, const SceneBaseline& opened) {
-    if (scene.lights.size() != opened.lights.size()) return true;
-    for (size_t i = 0; i < scene.lights.size(); ++i) {
-        const Node* node = node_of(scene, int(i));
-        if (!same_light(scene.lights[i], opened.lights[i])) return true;
-        if (node && !same_place(*node, opened.light_nodes[i])) return true;
-    }
-    return false;
+    return edited_lights(scene, opened) > 0;
 }
 
 json path_json(const Path& path) {
@@ -151,6 +145,26 @@ void set_environment(json& root, const Environment& environment) {
 
 } // namespace
 
+size_t edited_lights(const Scene& scene, const SceneBaseline& opened) {
+    if (scene.lights.size() != opened.lights.size()) return std::max(scene.lights.size(), size_t(1));
+    size_t edited = 0;
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        const Node* node = node_of(scene, int(i));
+        edited += !same_light(scene.lights[i], opened.lights[i]) || (node && !same_place(*node, opened.light_nodes[i]));
+    }
+    return edited;
+}
+
+size_t edited_materials(const Scene& scene, const SceneBaseline& opened) {
+    size_t edited = 0;
+    for (size_t i = 0; i < scene.materials.size() && i < opened.materials.size(); ++i) {
+        const Material &a = scene.materials[i], &b = opened.materials[i];
+        edited += a.base_colour != b.base_colour || a.metallic != b.metallic || a.roughness != b.roughness ||
+                  a.emission != b.emission;
+    }
+    return edited;
+}
+
 std::string shot_text(const Session& session, const SceneBaseline& opened, const fs::path& folder) {
     const Shot& shot = session.shot();
     json root = original(shot, folder);
@@ -186,13 +200,7 @@ bool differs_from_shot(const Session& session, const SceneBaseline& opened) {
 }
 
 std::string unsaved_edits(const Session& session, const SceneBaseline& opened) {
-    const std::vector<Material>& now = session.shot().scene.materials;
-    size_t edited = 0;
-    for (size_t i = 0; i < now.size() && i < opened.materials.size(); ++i) {
-        const Material &a = now[i], &b = opened.materials[i];
-        edited += a.base_colour != b.base_colour || a.metallic != b.metallic || a.roughness != b.roughness ||
-                  a.emission != b.emission;
-    }
+    const size_t edited = edited_materials(session.shot().scene, opened);
     if (!edited) return {};
     return fmt::format("{} edited material{}: shot files hold none", edited, edited == 1 ? "" : "s");
 }

@@ -13,6 +13,9 @@ std::string shot_text(const Session& session, const SceneBaseline& opened, const
 
 /// Whether the picture is not that of the shot file any more: the camera, lights or environment were changed.
 bool differs_from_shot(const Session& session, const SceneBaseline& opened);
+/// How many lights, and materials, are not as they were when the shot was opened.
+size_t edited_lights(const Scene& scene, const SceneBaseline& opened);
+size_t edited_materials(const Scene& scene, const SceneBaseline& opened);
 /// What a shot file cannot hold of it, in words; empty when nothing.
 std::string unsaved_edits(const Session& session, const SceneBaseline& opened);
 

@@ -18,7 +18,13 @@ void StabilityRun::start(const Session& session) {
     measurement_.reset();
     measurement_ = std::make_unique<StabilityMeasurement>(load_stability_case(chosen), model.file().path.string(), own);
     graph_ = model.file().name;
+    values_ = model.values().options();
     running_ = true;
+}
+
+bool StabilityRun::stale(const Session& session) const {
+    const GraphModel& model = session.graph().model();
+    return model.file().name != graph_ || model.values().options() != values_;
 }
 
 void StabilityRun::step() {

@@ -19,11 +19,13 @@ class StabilityRun {
     /// Null before the first start.
     const StabilityMeasurement* measurement() const { return measurement_.get(); }
     const std::string& graph() const { return graph_; }
+    /// The graph or its values are others by now than those that were measured.
+    bool stale(const Session& session) const;
     const std::string& problem() const { return problem_; }
 
   private:
     std::unique_ptr<StabilityMeasurement> measurement_;
-    std::string graph_, problem_;
+    std::string graph_, values_, problem_;
     bool running_ = false;
 };
 

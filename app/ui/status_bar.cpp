@@ -1,5 +1,6 @@
 #include "app/ui/status_bar.h"
 
+#include "app/ui/settings_key.h"
 #include "app/ui/style.h"
 #include "app/ui/widget_rects.h"
 
@@ -13,12 +14,15 @@ static std::string short_renderer(const std::string& renderer) {
     return renderer.substr(0, renderer.find_first_of("(/"));
 }
 
+/// The median of the last frames of the present settings; 0 while there is none.
 static float recent_ms(const UiState& ui) {
-    size_t count = std::min<size_t>(ui.frame_ms.size(), 20);
-    if (count == 0) return 0;
-    std::vector<float> last(ui.frame_ms.end() - long(count), ui.frame_ms.end());
-    std::nth_element(last.begin(), last.begin() + long(count / 2), last.end());
-    return last[count / 2];
+    std::vector<float> last;
+    for (auto frame = ui.frame_times.rbegin(); frame != ui.frame_times.rend() && last.size() < 20; ++frame)
+        if (frame->current) last.push_back(frame->ms);
+    if (last.empty()) return 0;
+    auto middle = last.begin() + long(last.size() / 2);
+    std::nth_element(last.begin(), middle, last.end());
+    return *middle;
 }
 
 static void gap() {
@@ -55,14 +59,20 @@ void draw_status_bar(PanelContext& context, const Area& area, const Capabilities
     gap();
     float ms = recent_ms(ui);
     bool running = !ui.paused || ui.render_always || ui.window.capture.recording;
-    if (running && ms > 0)
+    if (ms <= 0)
+        ImGui::TextColored(k_dim_colour, "- ms");
+    else if (running)
         ImGui::Text("%.1f ms  %.0f fps", double(ms), 1000.0 / double(ms));
     else
         ImGui::Text("%.1f ms", double(ms));
+    note_widget("status.frame_ms");
     help("Time of a whole frame, panels and display included.");
     gap();
-    ImGui::TextColored(k_dim_colour, "passes %.2f ms", session.graph().frame_ms());
-    help("GPU time of all passes: the sum of their medians.");
+    const bool current = times_are_current(session.graph());
+    ImGui::TextColored(k_dim_colour, "passes %.2f ms%s", whole_frame_ms(session.graph()), current ? "" : " (old)");
+    note_widget("status.passes_ms");
+    help(current ? "GPU time of a frame in which all passes run: the sum of their medians since something was changed."
+                 : "GPU time of earlier settings: the present ones have not been measured yet.");
     gap();
     const char* state = ui.window.capture.recording ? "recording"
                         : !ui.paused                ? "playing"

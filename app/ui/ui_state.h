@@ -38,7 +38,14 @@ struct ParameterEdit {
     std::string name;                                        ///< "direct.normal_offset"; "" = none
     std::string before;                                      ///< its text when the edit began
     ParameterOrigin origin = ParameterOrigin::default_value; ///< who had set it then
-    ParameterValue value; ///< as the widget has it (compiled-in parameters are applied at the end)
+    ParameterValue value;                                    ///< as the widget has it
+    bool waits = false; ///< it is applied at the end: it is typed, or shapes the plan
+};
+
+/// Time of a whole frame, panels and display included.
+struct FrameTime {
+    float ms = 0;
+    bool current = true; ///< of the settings that are shown; else of earlier ones
 };
 
 class LiveComparison;
@@ -65,8 +72,8 @@ struct UiState {
     glm::vec2 cursor_uv{-1};     ///< the same place as a share of width and height, for resources of other sizes
     bool cursor_locked = false;  ///< the inspector keeps its pixel
 
-    std::vector<float> frame_ms; ///< CPU time of the last frames, newest last
-    std::string notice;          ///< one line for the status bar
+    std::vector<FrameTime> frame_times; ///< of the last frames, newest last
+    std::string notice;                 ///< one line for the status bar
     bool notice_is_error = false;
 
     /// Makes the context and all that is on the GPU again, between two frames; empty where there is no window.

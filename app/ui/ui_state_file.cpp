@@ -63,6 +63,19 @@ Bookmark bookmark_from(const json& value) {
     return mark;
 }
 
+void get_work(const json& from, const char* key, std::map<std::string, std::string>& to) {
+    if (!from.contains(key)) return;
+    for (const auto& [file, work] : from.at(key).items())
+        to[file] = json_dump(work, -1);
+}
+
+json work_json(const std::map<std::string, std::string>& work) {
+    json out = json::object();
+    for (const auto& [file, text] : work)
+        out[file] = json::parse(text);
+    return out;
+}
+
 WindowState state_from(const json& root) {
     if (root.at("version") != k_version) throw std::runtime_error("it is of another version");
     WindowState state;
@@ -90,6 +103,10 @@ WindowState state_from(const json& root) {
         for (const json& value : root.at("bookmarks"))
             state.bookmarks.push_back(bookmark_from(value));
     }
+    if (root.contains("work")) {
+        get_work(root.at("work"), "shots", state.work.shots);
+        get_work(root.at("work"), "graphs", state.work.graphs);
+    }
     return state;
 }
 
@@ -107,7 +124,7 @@ WindowState load_window_state() {
     }
 }
 
-void save_window_state(const WindowState& state) {
+std::string window_state_text(const WindowState& state) {
     json root;
     root["version"] = k_version;
     root["left"] = state.layout.left;
@@ -139,10 +156,14 @@ void save_window_state(const WindowState& state) {
                                      {"up", vector_json(mark.camera.up)},
                                      {"vfov", mark.camera.vfov}});
     }
+    root["work"] = {{"shots", work_json(state.work.shots)}, {"graphs", work_json(state.work.graphs)}};
+    // Names of files may be no UTF-8: what cannot be written as such is replaced rather than lost with all the rest.
+    return json_dump(root, 1) + "\n";
+}
+
+void save_window_state(const std::string& text) {
     try {
-        // Names of files may be no UTF-8: what cannot be written as such is replaced rather than lost with all the
-        // rest.
-        write_file_atomically(state_path(), json_dump(root, 1) + "\n");
+        write_file_atomically(state_path(), text);
     } catch (const std::exception& error) {
         spdlog::warn("the window's state is not kept: {}", error.what());
     }

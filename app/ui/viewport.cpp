@@ -21,9 +21,12 @@ void Viewport::release_gpu() {
 const GpuTexture* Viewport::texture_to_show(PanelContext& context) {
     const Graph& graph = context.session.graph();
     bool plain = context.ui.hovered.empty() && context.ui.pinned.empty();
+    caption_.clear();
     if (context.ui.comparison && plain) {
         try {
-            if (const GpuTexture* pair = context.ui.comparison->picture(context.session, ImGui::GetTime())) {
+            const double now = ImGui::GetTime();
+            if (const GpuTexture* pair = context.ui.comparison->picture(context.session, now)) {
+                caption_ = context.ui.comparison->caption(context.session, now);
                 shown_ = {};
                 drawn_frame_ = ~0ull;
                 failure_.clear();
@@ -112,7 +115,8 @@ void Viewport::move_camera(PanelContext& context, const Area& picture, bool hove
     input.turn = drag_button_ == 0;
     input.slide = drag_button_ == 2;
     glm::vec2 scale = glm::vec2(context.session.size()) / glm::vec2(picture.size.x, picture.size.y);
-    input.moved = glm::vec2(io.MouseDelta.x, io.MouseDelta.y) * scale;
+    // The way to where a drag begins is no part of it.
+    if (!ImGui::IsItemActivated()) input.moved = glm::vec2(io.MouseDelta.x, io.MouseDelta.y) * scale;
     input.pixel = (glm::vec2(io.MousePos.x, io.MousePos.y) - glm::vec2(picture.min.x, picture.min.y)) * scale;
     input.wheel = hovered || active ? io.MouseWheel : 0;
     if (io.KeyCtrl) input.wheel = 0;
@@ -141,7 +145,7 @@ void Viewport::overlay(PanelContext& context, const Area& area, const Area& pict
     const UiState& ui = context.ui;
     ImDrawList* list = ImGui::GetWindowDrawList();
     float margin = ImGui::GetFontSize() * 0.5f;
-    std::string text;
+    std::string text = caption_;
     if (!shown_.resource.empty() && shown_.resource != "out.display") {
         const TextureDesc& desc = context.session.graph().texture(shown_.resource)->desc();
         glm::ivec3 size = mip_size(desc, shown_.mip);

@@ -1,6 +1,7 @@
 #include "app/ui/widget_rects.h"
 
 #include "app/ui/live_comparison.h"
+#include "app/ui/settings_key.h"
 #include "core/json_text.h"
 #include "core/log.h"
 
@@ -43,6 +44,7 @@ void end_widget_frame(const PanelContext& context) {
     json["drawn"] = ++drawn;
     json["rendered"] = session.graph().frames();
     json["frame"] = session.frame();
+    json["plans"] = session.graph().plans();
     json["shot"] = session.options().shot;
     json["graph"] = session.options().graph;
     json["size"] = {session.size().x, session.size().y};
@@ -51,6 +53,8 @@ void end_widget_frame(const PanelContext& context) {
     json["notice"] = context.ui.notice;
     json["notice_is_error"] = context.ui.notice_is_error;
     json["last_capture"] = context.ui.window.capture.last;
+    json["pinned"] = context.ui.pinned;
+    json["keys_shown"] = context.ui.show_keys;
     json["undo"] = context.undo.next_undo();
     json["problems"] = nlohmann::json::array();
     for (const GraphProblem& problem : session.graph().problems()) {
@@ -60,12 +64,30 @@ void end_widget_frame(const PanelContext& context) {
     for (const auto& [name, text] : session.changed_parameters(ParameterOrigin::command_line)) {
         json["parameters"][name] = text;
     }
+    json["filter"] = context.ui.parameter_filter;
+    json["lights"] = nlohmann::json::array();
+    for (const Light& light : session.shot().scene.lights) {
+        if (json["lights"].size() == 8) break;
+        json["lights"].push_back({{"intensity", {light.intensity.r, light.intensity.g, light.intensity.b}},
+                                  {"outer_cone", light.outer_cone},
+                                  {"enabled", light.enabled}});
+    }
+    json["times"] = {{"passes_ms", whole_frame_ms(session.graph())},
+                     {"current", times_are_current(session.graph())},
+                     {"timed", is_timed(session.graph())}};
+    for (const PlanPass& pass : session.graph().plan().passes) {
+        const PassTiming timing = session.graph().timing(pass.id);
+        json["times"]["runs"][pass.id] = timing.samples;
+        json["times"]["ms"][pass.id] = timing.median;
+    }
     if (const LiveComparison* comparison = context.ui.comparison.get()) {
         json["comparison"] = {{"view", int(comparison->view)},
                               {"split", comparison->split},
                               {"running", comparison->running()},
                               {"samples", comparison->samples()},
                               {"relative_rmse", comparison->figures()["relative_rmse"]},
+                              {"caption", comparison->caption(session, 0)},
+                              {"live_ms", comparison->live(session).ms},
                               {"points", comparison->points.size()}};
     }
     json["widgets"] = nlohmann::json::object();

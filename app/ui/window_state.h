@@ -6,6 +6,7 @@
 #include "scene/scene.h"
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,6 +55,11 @@ struct CaptureState {
     std::string saved_state; ///< and what it holds: another state makes it stale
 };
 
+/// What a person has changed and not saved, by file, as JSON (work.h).
+struct UnsavedWork {
+    std::map<std::string, std::string> shots, graphs;
+};
+
 struct WindowState {
     LayoutState layout;
     PictureSizing sizing;
@@ -65,6 +71,7 @@ struct WindowState {
     std::vector<Bookmark> bookmarks;
     float fly_speed = 1; ///< 1: the scene's diagonal in ten seconds
     CaptureState capture;
+    UnsavedWork work;
 
     // Not kept between runs.
     SceneBaseline opened;

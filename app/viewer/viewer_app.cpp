@@ -6,8 +6,10 @@
 #include "app/ui/style.h"
 #include "app/ui/ui_state_file.h"
 #include "app/ui/widget_rects.h"
+#include "app/ui/work.h"
 #include "core/log.h"
 #include "core/problem.h"
+#include "core/text.h"
 
 namespace bounce {
 
@@ -43,18 +45,11 @@ ViewerApp::ViewerApp(ViewOptions options) : options_(std::move(options)) {
     open_session();
     spdlog::debug("{}", describe(window_->capabilities()));
     state.opened = baseline_of(*session_);
+    if (!is_scripted()) restore_work();
 }
 
 ViewerApp::~ViewerApp() {
-    ui_.window.shot = session_ ? session_->options().shot : "";
-    ui_.window.graph = session_ ? session_->options().graph : "";
-    if (window_ && session_) {
-        ui_.window.maximized = window_->maximized();
-        if (!ui_.window.maximized) ui_.window.size = window_->size();
-        // What a command line fixed was meant for that run.
-        if (options_.session.size) ui_.window.sizing = {};
-        save_window_state(ui_.window);
-    }
+    if (window_ && session_) keep_state();
     viewport_.release_gpu();
     ui_.comparison.reset();
     ui_.cones.reset();
@@ -96,6 +91,40 @@ void ViewerApp::open_session() {
         if (!options_.graph_given) options_.session.graph = k_default_graph;
         session_ = std::make_unique<Session>(options_.session);
     }
+}
+
+/// What was edited when the program last ended, however it did.
+void ViewerApp::restore_work() {
+    std::set<std::string> given;
+    for (const auto& [name, text] : options_.session.sets)
+        given.insert(name);
+    for (const auto& [pass, on] : options_.session.switches)
+        given.insert(pass);
+    PanelContext panels = context();
+    std::vector<std::string> restored;
+    for (const std::string& part : {restore_shot_work(panels), restore_graph_work(panels, given)})
+        if (!part.empty()) restored.push_back(part);
+    if (restored.empty() || ui_.notice_is_error) return;
+    ui_.say("your edits of last time are here again: " + join(restored, "; ") +
+            " (F5, \"reset all\": as in the files)");
+}
+
+/// Writes what outlives the program, if it changed.
+void ViewerApp::keep_state() {
+    WindowState& window = ui_.window;
+    window.shot = session_->options().shot;
+    window.graph = session_->options().graph;
+    window.maximized = window_->maximized();
+    if (!window.maximized && window_->size().x > 0) window.size = window_->size();
+    PanelContext panels = context();
+    if (!is_scripted()) keep_work(panels);
+    const PictureSizing sizing = window.sizing;
+    if (options_.session.size) window.sizing = {}; // what a command line fixed was meant for that run
+    std::string text = window_state_text(window);
+    window.sizing = sizing;
+    if (text == kept_state_) return;
+    kept_state_ = std::move(text);
+    save_window_state(kept_state_);
 }
 
 } // namespace bounce

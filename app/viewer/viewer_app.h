@@ -4,6 +4,7 @@
 #include "app/hosts/window.h"
 #include "app/ui/keys.h"
 #include "app/ui/viewport.h"
+#include "app/viewer/palette.h"
 
 namespace bounce {
 
@@ -35,10 +36,15 @@ class ViewerApp {
     void make_interface();
     void splash(const std::string& text);
     void open_session();
+    void restore_work();
+    void keep_state();
+    /// It runs by itself and quits: what a person left does not reach it, and it leaves nothing.
+    bool is_scripted() const { return options_.frames > 0 || !options_.capture_on_exit.empty(); }
 
     // viewer_loop.cpp: one turn of the loop
     void wait();
     void handle_events();
+    void take_input();
     void attempt(const std::function<void()>& action);
     void run_later_actions();
     bool render_if_wanted();
@@ -50,13 +56,23 @@ class ViewerApp {
     void make_gpu_again();
     bool finished() const;
 
+    // viewer_figures.cpp: times belong to the settings that made them
+    void follow_settings(double now);
+    void follow_plan(double now);
+    void forget_figures(double now);
+    double next_measurement() const;
+    bool time_to_measure(double now);
+    void render_frame();
+
     // viewer_draw.cpp
-    void draw();
+    /// A frame of the panels; one that is not `shown` only takes input.
+    void draw(bool shown);
+    void take_keys();
     void draw_panels(PanelContext& panels, const Areas& areas);
     void draw_keys_window(PanelContext& panels);
 
     // viewer_commands.cpp
-    void run_command(const std::string& chord);
+    void run_command(const KeyPress& key);
     void obey_time(KeyCommand command);
     void obey_camera(KeyCommand command, const std::string& chord);
     void obey_files(KeyCommand command);
@@ -69,6 +85,11 @@ class ViewerApp {
     std::unique_ptr<Window> window_;
     std::unique_ptr<Session> session_;
     Viewport viewport_;
+    Palette palette_;
+
+    std::vector<KeyPress> keys_; ///< of this frame
+    std::string kept_state_;     ///< as it was written last
+    bool keep_due_ = false;      ///< something was drawn since
 
     int gui_frames_ = 4;       ///< still to be drawn: ImGui settles over a few
     bool later_shown_ = false; ///< the notice of what run_later_actions() will do has been on the screen
@@ -76,6 +97,13 @@ class ViewerApp {
     glm::ivec2 fitting_{0}; ///< a size that the picture is to have, once it has stayed so
     double fitting_since_ = 0;
     int rendered_ = 0;
+    std::string settings_;     ///< of the last frame
+    uint64_t timed_plans_ = 0; ///< Graph::plans() then
+    double changed_at_ = 0;    ///< when they changed last
+    int measured_ = 0;         ///< frames that were rendered to be measured since
+    bool measuring_ = false;   ///< the next frame is one of them
+    bool first_run_ = false;   ///< what was measured of them holds the cost of making what they need
+    bool planned_now_ = false; ///< in the last frame
     bool reset_simulated_ = false;
     int resets_ = 0, last_reset_ = 0; ///< of the GPU, soon after one another; rendered_ at the last
     std::string problems_;            ///< as last told

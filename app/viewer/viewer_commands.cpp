@@ -9,10 +9,12 @@
 
 namespace bounce {
 
-void ViewerApp::run_command(const std::string& chord) {
+void ViewerApp::run_command(const KeyPress& key) {
+    const std::string& chord = key.chord;
     // While text is typed, keys are letters; but a function key is never part of a text.
     bool function_key = chord.find('F') != std::string::npos && std::isdigit(static_cast<unsigned char>(chord.back()));
-    if (ImGui::GetIO().WantTextInput && !function_key) return;
+    if (key.in_text && !function_key) return;
+    if (key.in_popup && chord == "Escape") return; // it closed the dropdown
     KeyCommand command = command_of(chord);
     if (command == KeyCommand::none) return;
     gui_frames_ = 4;
@@ -111,7 +113,7 @@ void ViewerApp::obey_files(KeyCommand command) {
         save_shot(panels);
         break;
     case KeyCommand::reload_shot:
-        ask_for_shot(panels, session_->options().shot);
+        ask_for_shot_again(panels);
         break;
     default:
         break;
@@ -126,6 +128,9 @@ void ViewerApp::obey_window(KeyCommand command) {
     switch (command) {
     case KeyCommand::show_keys:
         ui_.show_keys = !ui_.show_keys;
+        break;
+    case KeyCommand::palette:
+        palette_.open(palette_entries(context(), [this](const std::string& chord) { run_command({chord}); }));
         break;
     case KeyCommand::show_log:
         ui_.show_log = !ui_.show_log;

@@ -1,14 +1,18 @@
 // The panels in their places.
 #include "app/panels/panel.h"
+#include "app/panels/parameter_edit.h"
 #include "app/ui/edit.h"
 #include "app/ui/imgui_stack.h"
+#include "app/ui/light_banner.h"
 #include "app/ui/status_bar.h"
 #include "app/ui/style.h"
 #include "app/ui/widget_rects.h"
 #include "app/viewer/viewer_app.h"
 #include "core/problem.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <imgui_internal.h>
 
 namespace bounce {
 
@@ -70,11 +74,25 @@ void draw_tabs(const char* name, const Area& area, const std::vector<Tab>& tabs,
 
 } // namespace
 
-void ViewerApp::draw() {
+/// Escape closes what is open: a dropdown, a menu. (ImGui does that only where keys move its focus, too.)
+void ViewerApp::take_keys() {
+    for (KeyPress& key : window_->take_keys()) {
+        if (key.in_popup && !key.in_text && key.chord == "Escape")
+            ImGui::ClosePopupToLevel(std::max(GImGui->OpenPopupStack.Size - 1, 0), true);
+        keys_.push_back(std::move(key));
+    }
+}
+
+void ViewerApp::draw(bool shown) {
     PanelContext panels = context();
     float scale = interface_scale();
     window_->set_title(fmt::format("{} · {} – Bounce", session_->shot().name, session_->graph().model().file().name));
     window_->begin_frame();
+    take_keys();
+    // A person sees the answer of the panels before a frame that takes its time.
+    constexpr float k_slow_frame = 100; // milliseconds
+    const bool slow = !ui_.frame_times.empty() && ui_.frame_times.back().ms > k_slow_frame;
+    shown = shown || (slow && !window_->has_input());
     begin_widget_frame();
     begin_edit_frame();
     ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -85,12 +103,16 @@ void ViewerApp::draw() {
             areas = arrange(ui_.window.layout, display, scale, ui_.show_log);
         draw_panels(panels, areas);
         viewport_.draw(panels, areas.viewport, *window_);
+        draw_light_banner(panels, areas.viewport);
         draw_status_bar(panels, areas.status, window_->capabilities());
         draw_keys_window(panels);
-        end_widget_frame(panels);
+        palette_.draw(panels);
+        // What was typed into a row that is not drawn any more (another tab, a filter) was left, too.
+        if (!ui_.edit.name.empty() && !ImGui::IsAnyItemActive()) finish_edit(panels);
+        if (shown) end_widget_frame(panels);
     });
     stack.unwind(); // nothing to do unless an exception ended the above
-    window_->end_frame();
+    window_->end_frame(shown);
 }
 
 void ViewerApp::draw_panels(PanelContext& panels, const Areas& areas) {

@@ -50,18 +50,20 @@ void ViewerApp::run() {
             pretend_reset(ResetCause::guilty);
         if (context_is_lost()) recover_from_reset();
         attempt([&] { handle_events(); });
+        attempt([&] { take_input(); });
         double start = seconds_now();
         bool rendered = false;
         attempt([&] { rendered = render_if_wanted(); });
         bool visible = window_->framebuffer_size().x > 0;
         if (visible && (rendered || gui_frames_ > 0)) {
-            draw();
+            draw(true);
             gui_frames_ = std::max(gui_frames_ - 1, 0);
             later_shown_ = true;
+            keep_due_ = true;
         }
         if (rendered) {
-            ui_.frame_ms.push_back(float(1000 * (seconds_now() - start)));
-            if (ui_.frame_ms.size() > k_kept_frames) ui_.frame_ms.erase(ui_.frame_ms.begin());
+            ui_.frame_times.push_back({float(1000 * (seconds_now() - start)), !planned_now_});
+            if (ui_.frame_times.size() > k_kept_frames) ui_.frame_times.erase(ui_.frame_times.begin());
         }
     }
     if (!options_.capture_on_exit.empty()) write_picture(*session_, options_.capture_on_exit);
@@ -80,6 +82,7 @@ void ViewerApp::wait() {
     double until = next_poll_;
     if (!ui_.paused) until = std::min(until, next_play_);
     if (ui_.redraw_panels) until = std::min(until, now + 0.1);
+    until = std::min(until, next_measurement());
     if (fitting_.x > 0) until = std::min(until, fitting_since_ + k_settle_time);
     if (until <= now)
         window_->poll_events();
@@ -106,14 +109,17 @@ void ViewerApp::handle_events() {
     if (std::exchange(ui_.redraw_panels, false)) gui_frames_ = std::max(gui_frames_, 1);
     if (window_->take_scale_change()) attempt([&] { make_interface(); });
     PanelContext panels = context();
-    for (const std::string& chord : window_->take_keys())
-        run_command(chord);
     for (const std::string& path : window_->take_dropped_files())
         ask_for_file(panels, path);
     run_later_actions();
     double now = seconds_now();
     if (now < next_poll_) return;
     next_poll_ = now + k_poll_interval;
+    // At rest: neither a drag nor a flight is written step by step.
+    if (keep_due_ && !is_scripted() && !ImGui::IsAnyItemActive() && !viewport_.busy()) {
+        keep_due_ = false;
+        attempt([&] { keep_state(); });
+    }
     // A reference that grows in the background, and the flicker between it and the picture, are seen without input.
     const LiveComparison* comparison = ui_.comparison.get();
     bool moving = comparison && (comparison->running() || comparison->view == CompareView::flicker);
@@ -121,6 +127,17 @@ void ViewerApp::handle_events() {
     attempt([&] {
         if (session_->poll_files()) ui_.redraw();
     });
+}
+
+/// Each step of what a person did gets a frame of the panels, one after another; what they change is rendered once.
+void ViewerApp::take_input() {
+    if (window_->framebuffer_size().x <= 0) window_->drop_input();
+    for (;;) {
+        for (const KeyPress& key : std::exchange(keys_, {}))
+            run_command(key);
+        if (!window_->has_input()) return;
+        draw(false);
+    }
 }
 
 void ViewerApp::run_later_actions() {
@@ -184,8 +201,8 @@ void ViewerApp::fit_picture() {
 bool ViewerApp::render_if_wanted() {
     if (window_->framebuffer_size().x > 0) fit_picture();
     bool advance = time_to_advance();
-    bool wanted =
-        advance || ui_.redraw_frames > 0 || ui_.render_always || ui_.window.capture.recording || options_.frames > 0;
+    bool wanted = advance || ui_.redraw_frames > 0 || ui_.render_always || ui_.window.capture.recording ||
+                  options_.frames > 0 || time_to_measure(seconds_now());
     if (!wanted) return false;
     if (advance) session_->advance();
     ui_.redraw_frames = std::max(ui_.redraw_frames - 1, 0);
@@ -194,7 +211,9 @@ bool ViewerApp::render_if_wanted() {
 }
 
 void ViewerApp::render() {
-    attempt([&] { session_->render(); });
+    follow_settings(seconds_now());
+    render_frame();
+    follow_plan(seconds_now());
     ++rendered_;
     tell_problems();
     if (!ui_.window.capture.recording) return;

@@ -2,6 +2,7 @@
 #include "app/panel_fixture.h"
 #include "app/ui/live_comparison.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -36,17 +37,23 @@ class ComparePanel : public PanelsTest {
         const GpuTexture* texture = comparison().picture(*session, seconds);
         return texture ? texture->read() : std::vector<float>();
     }
-    /// The share of pixels of the columns from … to − 1 that are those of the graph's own display.
+    /// The share of pixels of the columns from … to − 1 that show the graph's own sum of what is compared, toned as the
+    /// graph tones its picture.
     double share_of_own(const std::vector<float>& shown, int from, int to) {
-        const std::vector<float> own = session->graph().texture("out.display")->read();
+        const std::vector<float> direct = session->graph().texture("out.direct")->read(),
+                                 emission = session->graph().texture("out.emission")->read();
+        const float scale = session->value_scale("out.direct");
         const int width = session->size().x;
         int same = 0, all = 0;
         for (int y = 0; y < session->size().y; ++y) {
             for (int x = from; x < to; ++x, ++all) {
                 const size_t i = 4 * size_t(y * width + x);
-                same += std::abs(shown[i] - own[i]) + std::abs(shown[i + 1] - own[i + 1]) +
-                            std::abs(shown[i + 2] - own[i + 2]) <
-                        1e-6f;
+                bool equal = true;
+                for (size_t c = i; c < i + 3; ++c) {
+                    const float own = srgb_encode(std::clamp(scale * (direct[c] + emission[c]), 0.0f, 1.0f));
+                    equal = equal && std::abs(shown[c] - own) < 0.6f / 255;
+                }
+                same += equal;
             }
         }
         return double(same) / all;
@@ -90,6 +97,21 @@ TEST_F(ComparePanel, ShowsThePairInFourWays) {
     EXPECT_FALSE(picture().empty());
 }
 
+TEST_F(ComparePanel, TheViewSaysWhatItCompares) {
+    compare();
+    click("compare.view.split");
+    session->set_parameter("tonemap.exposure", "-2", ParameterOrigin::panel);
+    session->set_parameter("tonemap.curve", "aces_like", ParameterOrigin::panel);
+    session->render();
+    frame();
+    EXPECT_EQ(comparison().caption(*session, 0), "graph | reference: direct + emission, exposure -2, curve aces_like");
+    click("compare.view.flicker");
+    EXPECT_THAT(comparison().caption(*session, 0.2), testing::StartsWith("graph: direct + emission"));
+    EXPECT_THAT(comparison().caption(*session, 0.7), testing::StartsWith("reference: direct + emission"));
+    click("compare.view.error");
+    EXPECT_EQ(comparison().caption(*session, 0), "relative error of direct + emission, 0 to 50 %");
+}
+
 TEST_F(ComparePanel, AnotherViewNeedsAnotherReference) {
     compare();
     click("compare.view.reference");
@@ -114,6 +136,11 @@ TEST_F(ComparePanel, KeepsPointsBesideTheLiveOne) {
     ASSERT_EQ(comparison().points.size(), 1u);
     EXPECT_NEAR(comparison().points[0].figures["relative_rmse"], comparison().figures()["relative_rmse"], 1e-12);
     EXPECT_GT(comparison().points[0].ms, 0);
+    EXPECT_EQ(comparison().points[0].transport, "0 bounces: direct + emission");
+    // A time of other settings makes no point.
+    session->graph().forget_timings();
+    click("compare.keep");
+    EXPECT_EQ(comparison().points.size(), 1u);
 }
 
 TEST_F(ComparePanel, Stops) {

@@ -1,157 +1,16 @@
-"""The real window, on a display of its own, driven by real input events. It tells where its widgets lie by --dump-ui."""
+"""A person at work in the real window: edits, shaders, files, captures, the reference, GPU resets."""
 
 import json
 import os
-import pathlib
 import re
-import shutil
-import struct
 import subprocess
-import tempfile
-import time
 import unittest
 
-from program import PROGRAM, SMALL, ProgramTest, exr_header, png_pixel
-
-SIZE = (1366, 768)  # a laptop's screen
-PICTURE = (96, 64)
-TOOLS = {"Xvfb": "xvfb", "xdotool": "xdotool", "xwininfo": "x11-utils"}
+from program import PROGRAM, SMALL, exr_header, png_pixel
+from window_driver import PICTURE, WindowTest
 
 
-class Display:
-    """An X server on a free display; only the process that was started here is ended."""
-
-    def __init__(self):
-        self.memory = tempfile.TemporaryDirectory(prefix="bounce_screen_")
-        read, write = os.pipe()
-        self.process = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", f"{SIZE[0]}x{SIZE[1]}x24", "-nolisten", "tcp",
-                                         "-noreset", "-fbdir", self.memory.name], pass_fds=[write], stderr=subprocess.DEVNULL)
-        os.close(write)
-        with os.fdopen(read) as pipe:
-            self.name = ":" + pipe.readline().strip()
-
-    def close(self):
-        self.process.terminate()
-        self.process.wait(30)
-        self.memory.cleanup()
-
-    def pixels(self, x0, y0, x1, y1):
-        """Rows of pixels as the screen has them now."""
-        screen = (pathlib.Path(self.memory.name) / "Xvfb_screen0").read_bytes()  # an X window dump
-        header = struct.unpack(">25I", screen[:100])
-        start, row, size = header[0] + 12 * header[19], header[12], header[11] // 8
-        places = [[start + y * row + x * size for x in range(x0, x1)] for y in range(y0, y1)]
-        return [[screen[place:place + 3] for place in line] for line in places]
-
-
-class Window(ProgramTest):
-    @classmethod
-    def setUpClass(cls):
-        missing = [package for tool, package in TOOLS.items() if not shutil.which(tool)]
-        if missing:
-            raise unittest.SkipTest("not installed: " + ", ".join(missing))
-        cls.display = Display()
-        cls.addClassCleanup(cls.display.close)
-
-    def environment(self):
-        environment = dict(super().environment(), DISPLAY=self.display.name, HOME=str(self.folder),
-                           XDG_STATE_HOME=str(self.folder / "state"), XDG_CACHE_HOME=str(self.folder / "cache"))
-        environment.pop("WAYLAND_DISPLAY", None)
-        environment.pop("XAUTHORITY", None)
-        return environment
-
-    # --- the program ---
-
-    def open(self, *arguments):
-        self.dump = self.folder / "dump.json"
-        self.dump.unlink(missing_ok=True)
-        self.log = open(self.folder / "log", "w+")
-        self.addCleanup(self.log.close)
-        self.window = subprocess.Popen([PROGRAM, "view", *map(str, arguments), "--window", "%dx%d" % SIZE, "--dump-ui", str(self.dump)],
-                                       env=self.environment(), cwd=self.out, stdout=self.log, stderr=self.log)
-        self.addCleanup(self.stop, self.window)
-        self.wait(lambda state: state["rendered"] >= 2 and state["drawn"] >= 3, "the first frames")
-
-    def said(self):
-        self.log.flush()
-        return (self.folder / "log").read_text()
-
-    def state(self):
-        return json.loads(self.dump.read_text()) if self.dump.exists() else None
-
-    def wait(self, what, description, seconds=90):
-        """Waits for a drawn frame whose state satisfies `what`; returns the state."""
-        end = time.monotonic() + seconds
-        while time.monotonic() < end:
-            state = self.state()
-            if state and what(state):
-                return state
-            self.assertIsNone(self.window.poll(), f"the program ended while waiting for {description}: {self.said()}")
-            time.sleep(0.05)
-        self.fail(f"{description}: not within {seconds} s; {json.dumps(self.state())}; {self.said()}")
-
-    def wait_for_exit(self):
-        self.assertEqual(self.window.wait(90), 0, self.said())
-
-    # --- input ---
-
-    def input(self, *words):
-        """One event, and the frame that heard it."""
-        before = self.state()["drawn"]
-        subprocess.run(["xdotool", *map(str, words)], env=self.environment(), check=True, timeout=60)
-        self.wait(lambda state: state["drawn"] > before, "a frame after " + " ".join(map(str, words)))
-        time.sleep(0.1)
-
-    def place(self, widget, share=0.5):
-        """A point of a widget: at a share of its width, half its height. One of a pass that lies below the panel's edge is
-        wheeled into view."""
-        pass_id = widget.split(".")[0]
-        for _ in range(20):
-            state = self.state()
-            others = [rect for name, rect in state["widgets"].items() if name.split(".")[0] in ("direct", "shadow_maps", "gbuffer")]
-            if widget in state["widgets"] or pass_id != "tonemap" or not others:
-                break
-            x0, y0, x1, y1 = others[0]
-            self.move(round((x0 + x1) / 2), round((y0 + y1) / 2))
-            self.input("click", 5)
-        x0, y0, x1, y1 = self.wait(lambda state: widget in state["widgets"], f"the widget {widget}")["widgets"][widget]
-        return round(x0 + share * (x1 - x0)), round((y0 + y1) / 2)
-
-    def move(self, x, y):
-        """A pointer that is at the place already moves nothing, so that no frame is drawn for it."""
-        place = subprocess.run(["xdotool", "getmouselocation"], env=self.environment(), capture_output=True, text=True, check=True, timeout=60)
-        if not place.stdout.startswith(f"x:{x} y:{y} "):
-            self.input("mousemove", x, y)
-
-    def click(self, widget):
-        self.move(*self.place(widget))
-        self.input("mousedown", 1)
-        self.input("mouseup", 1)
-
-    def drag(self, widget, start, end, button=1):
-        points = [self.place(widget, share) for share in (start, (start + end) / 2, end)]
-        self.move(*points[0])
-        self.input("mousedown", button)
-        self.move(*points[1])
-        self.move(*points[2])
-        self.input("mouseup", button)
-
-    def type(self, widget, text):
-        self.click(widget)
-        subprocess.run(["xdotool", "type", "--delay", "50", text], env=self.environment(), check=True, timeout=60)
-
-    def capture(self, key="F12"):
-        """Presses the key; returns the file that was written."""
-        before = self.state()["last_capture"]
-        self.input("key", key)
-        path = self.wait(lambda state: state["last_capture"] != before, "a capture")["last_capture"]
-        return self.out / os.path.basename(path)
-
-    def middle(self, path):
-        return png_pixel(path, PICTURE[0] // 2, PICTURE[1] // 2)
-
-    # --- tests ---
-
+class Window(WindowTest):
     def test_a_person_at_work(self):
         self.open(self.shot, *SMALL, "--size", "%dx%d" % PICTURE)
         first = self.capture()
@@ -162,7 +21,7 @@ class Window(ProgramTest):
         self.drag("tonemap.exposure", 0.5, 0.7)
         state = self.wait(lambda state: "tonemap.exposure" in state["parameters"], "the slider's value")
         self.assertGreater(float(state["parameters"]["tonemap.exposure"]), 2)
-        bright = self.middle(self.capture("ctrl+s"))
+        bright = self.middle(self.capture())
         self.assertGreater(sum(bright), sum(dark))
         self.input("key", "ctrl+z")
         self.wait(lambda state: "tonemap.exposure" not in state["parameters"], "undo")

@@ -237,7 +237,7 @@ class Headless(Host):
 class Window(Host):
     def __init__(self, graph):
         super().__init__(graph)
-        from window_test import Display
+        from window_driver import Display
         self.display = Display()
         self.environment["DISPLAY"] = self.display.name
         self.environment.pop("WAYLAND_DISPLAY", None)

@@ -1,0 +1,109 @@
+"""Edits are told where they go along, are there again where they were left, and are saved by the key that people press."""
+
+import json
+import unittest
+
+from program import SMALL
+from window_driver import PICTURE, SIZE, WindowTest
+
+
+class WindowWork(WindowTest):
+    def choose(self, list_name, item):
+        self.click(list_name)
+        self.click(item)
+
+    def test_edits_go_along_into_another_graph_and_it_is_told(self):
+        (self.root / "assets/graphs/aaa_other.json").write_text(json.dumps({
+            "version": 1, "extends": "direct", "remove": ["shadow_maps"], "passes": [{"id": "direct", "params": {"shadows": False}}]}))
+        self.open(self.shot, "--graph", "direct", "--size", "%dx%d" % PICTURE)
+        self.drag("tonemap.exposure", 0.5, 0.6)
+        value = self.wait(lambda state: "tonemap.exposure" in state["parameters"], "the value")["parameters"]["tonemap.exposure"]
+        self.drag("shadow_maps.resolution", 0.5, 0.3)
+        resolution = self.wait(lambda state: "shadow_maps.resolution" in state["parameters"], "the value")["parameters"]["shadow_maps.resolution"]
+        self.choose("graph.choose", "graph.choose.aaa_other")
+        state = self.wait(lambda state: state["graph"] == "aaa_other" and state["notice"].startswith("opened"), "the other graph")
+        self.assertIn(f"your edits went along: tonemap.exposure={value}", state["notice"])
+        self.assertIn(f"kept for direct: shadow_maps.resolution={resolution}", state["notice"])
+        self.assertEqual(state["parameters"], {"tonemap.exposure": value})
+        # What was set last counts, and what the other graph had no place for is there again.
+        self.drag("tonemap.exposure", 0.5, 0.4)
+        self.wait(lambda state: state["parameters"].get("tonemap.exposure") != value, "another value")
+        self.choose("graph.choose", "graph.choose.direct")
+        state = self.wait(lambda state: state["graph"] == "direct" and state["notice"].startswith("opened"), "the first graph")
+        self.assertIn(f"there again: shadow_maps.resolution={resolution}", state["notice"])
+        self.assertEqual(state["parameters"]["shadow_maps.resolution"], resolution)
+        self.assertNotEqual(state["parameters"]["tonemap.exposure"], value)
+
+    def test_edits_of_a_shot_outlive_a_switch(self):
+        self.open("cornell", *SMALL, "--size", "%dx%d" % PICTURE)
+        self.drag("light.0.outer_cone", 0.5, 0.3)
+        camera = self.state()["camera"]
+        self.drag("viewport", 0.5, 0.55)
+        left = self.wait(lambda state: state["camera"] != camera and state["undo"].endswith("cone"), "the edits")
+        self.choose("scene.shot", "scene.shot.cornell_lamp")
+        state = self.wait(lambda state: state["shot"] == "cornell_lamp" and state["notice"].startswith("opened"), "another shot")
+        self.assertIn("your edits of cornell are kept", state["notice"])
+        self.choose("scene.shot", "scene.shot.cornell")
+        state = self.wait(lambda state: state["shot"] == "cornell" and state["notice"].startswith("opened"), "the first shot")
+        self.assertIn("with your edits: the camera, 1 light", state["notice"])
+        self.assertEqual(state["lights"], left["lights"])
+        self.assertEqual(state["camera"], left["camera"])
+        self.input("key", "F5")
+        self.wait(lambda state: state["lights"] != left["lights"] and state["camera"] == camera, "the shot as it is in its file")
+
+    def test_escape_closes_what_is_open_and_nothing_else(self):
+        self.open(self.shot, *SMALL, "--size", "%dx%d" % PICTURE)
+        self.click("graph.pass.direct")
+        self.wait(lambda state: state["pinned"] == "out.direct", "the pinned output")
+        for dropdown, item in (("graph.choose", "graph.choose.direct"), ("scene.shot", "scene.shot.cornell"),
+                               ("tonemap.curve", "tonemap.curve.none")):
+            self.place(dropdown)
+            self.click(dropdown)
+            self.wait(lambda state: item in state["widgets"], "what can be chosen")
+            self.input("key", "Escape")
+            self.wait(lambda state: item not in state["widgets"], "the end of the list")
+            self.assertEqual(self.state()["pinned"], "out.direct")
+        self.input("key", "Escape")
+        self.wait(lambda state: state["pinned"] == "", "the final picture")
+
+    def test_control_s_saves_the_shot(self):
+        self.open(self.shot, *SMALL, "--size", "%dx%d" % PICTURE)
+        self.drag("light.0.outer_cone", 0.5, 0.3)
+        self.input("key", "ctrl+s")
+        self.wait(lambda state: state["notice"].startswith("saved"), "the saved shot")
+        saved = json.loads((self.out / "tiny_view_001.json").read_text())
+        self.assertEqual(saved["lights_mode"], "replace")
+        self.assertEqual(list(self.out.glob("*.png")), [])
+        self.capture("F12")
+        self.assertEqual(len(list(self.out.glob("*.png"))), 1)
+        self.input("key", "question")
+        self.wait(lambda state: state["keys_shown"], "the keys")
+        self.input("key", "Escape")
+        self.wait(lambda state: not state["keys_shown"], "the end of the keys")
+
+    def test_rows_stay_in_their_panel(self):
+        """Why a pass is skipped is written over two columns: within the list, however it is scrolled."""
+        (self.root / "glsl/user").mkdir()
+        (self.root / "glsl/user/idle.comp").write_text(
+            "layout(local_size_x = 8, local_size_y = 8) in;\nlayout(FORMAT_out_radiance) uniform image2D out_radiance;  //! ordered: one\n"
+            "void main() { ivec2 p = ivec2(gl_GlobalInvocationID.xy); imageStore(out_radiance, p, imageLoad(out_radiance, p)); }\n")
+        (self.root / "assets/graphs/idle.json").write_text(json.dumps({"version": 1, "extends": "direct", "passes": [
+            {"before": "tonemap", "id": f"idle_{i}", "type": "compute", "shader": "user/idle.comp", "enabled": False} for i in range(40)]}))
+        self.open(self.shot, *SMALL, "--graph", "idle", "--size", "%dx%d" % PICTURE)
+        rect = {name: tuple(map(round, self.state()["widgets"][name])) for name in ("tab.Graph", "tab.Parameters", "parameters.filter")}
+        right = SIZE[0] - 8
+        above = (rect["tab.Graph"][0], rect["tab.Graph"][1], right, rect["tab.Graph"][3])
+        below = (rect["tab.Parameters"][0], rect["tab.Parameters"][1], right, rect["parameters.filter"][3])
+        # The pointer stays on the list's scroll bar, where no tooltip comes up.
+        self.move(SIZE[0] - 13, rect["tab.Graph"][3] + 160)
+        first = None
+        for _ in range(12):
+            now = self.display.pixels(*above), self.display.pixels(*below)
+            first = first or now
+            self.assertTrue(now == first, "something is written outside the list")
+            self.input("click", 5)
+        self.assertNotIn("graph.pass.gbuffer", self.state()["widgets"], "it was not scrolled")
+
+
+if __name__ == "__main__":
+    unittest.main()
