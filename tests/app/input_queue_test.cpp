@@ -20,7 +20,7 @@ class Queue : public testing::Test {
     void TearDown() override { ImGui::DestroyContext(); }
 
     void motion(float x, float y) { queue.push({Kind::motion, {x, y}, 0, false, -1, ""}); }
-    void button(int which, bool down) { queue.push({Kind::button, {}, which, down, 0, ""}); }
+    void button(int which, bool down, int modifiers = 0) { queue.push({Kind::button, {}, which, down, modifiers, ""}); }
     void wheel(float notches) { queue.push({Kind::wheel, {0, notches}, 0, false, -1, ""}); }
     void key(int code, bool down, int modifiers = 0, const char* chord = "") {
         queue.push({Kind::key, {}, code, down, modifiers, chord});
@@ -90,7 +90,7 @@ TEST_F(Queue, ModifiersAreThoseOfTheKey) {
 
 TEST_F(Queue, AModifierThatIsLetGoOfDoesNotReachBack) {
     modifier(k_key_shift, true, k_shift);
-    button(0, true);
+    button(0, true, k_shift);
     modifier(k_key_shift, false, 0);
     EXPECT_TRUE(frame().KeyShift);
     EXPECT_TRUE(ImGui::GetIO().MouseDown[0]);

@@ -146,5 +146,69 @@ TEST_F(PanelsOnOwnShader, EveryKindHasAWidget) {
     EXPECT_FALSE(ui.notice_is_error) << ui.notice;
 }
 
+TEST_F(PanelsTest, AGridTakesPowersOfTwoAlone) {
+    open("voxel_ao");
+    ui.parameter_filter = "occlusion_voxels.";
+    show(draw_parameters_panel);
+    click("occlusion_voxels.resolution");
+    frame();
+    EXPECT_TRUE(has("occlusion_voxels.resolution.8"));
+    EXPECT_TRUE(has("occlusion_voxels.resolution.512"));
+    EXPECT_FALSE(has("occlusion_voxels.resolution.100"));
+    click("occlusion_voxels.resolution.32");
+    EXPECT_EQ(text("occlusion_voxels.resolution"), "32");
+    EXPECT_EQ(undo.next_undo(), "occlusion_voxels.resolution");
+    EXPECT_FALSE(ui.notice_is_error) << ui.notice;
+}
+
+TEST_F(PanelsTest, WhatTheGraphCannotRunWithIsRefused) {
+    open("voxel_ao");
+    session->set_parameter("occlusion_voxels.route", "raster", ParameterOrigin::panel);
+    session->set_parameter("occlusion_voxels.storage", "bytes", ParameterOrigin::command_line);
+    session->render();
+    ui.parameter_filter = "occlusion_voxels.";
+    show(draw_parameters_panel);
+    click("occlusion_voxels.storage");
+    frame();
+    click("occlusion_voxels.storage.bits");
+    EXPECT_EQ(text("occlusion_voxels.storage"), "bytes");
+    EXPECT_EQ(parameter("occlusion_voxels.storage").origin, ParameterOrigin::command_line);
+    EXPECT_TRUE(ui.notice_is_error);
+    EXPECT_THAT(ui.notice, testing::HasSubstr("storage = bits needs route = compute"));
+    EXPECT_THAT(ui.notice, testing::HasSubstr("occlusion_voxels.storage stays bytes"));
+    EXPECT_EQ(undo.next_undo(), "");
+    session->render();
+    EXPECT_TRUE(session->graph().problems().empty());
+    // Out of a state that cannot run, steps are allowed.
+    session->set_parameter("occlusion_voxels.storage", "bits", ParameterOrigin::panel);
+    EXPECT_TRUE(apply(*session, ui, {{"occlusion_voxels.resolution", "16", ParameterOrigin::panel}}));
+    EXPECT_TRUE(apply(*session, ui, {{"occlusion_voxels.route", "compute", ParameterOrigin::panel}}));
+    session->render();
+    EXPECT_TRUE(session->graph().problems().empty());
+}
+
+TEST_F(PanelsTest, ADoubleClickOnTheNameResets) {
+    session->set_parameter("tonemap.exposure", "2", ParameterOrigin::panel);
+    show(draw_parameters_panel);
+    click("tonemap.exposure.name");
+    EXPECT_EQ(text("tonemap.exposure"), "2");
+    press(true);
+    press(false);
+    EXPECT_EQ(text("tonemap.exposure"), "0");
+    undo.undo();
+    EXPECT_EQ(text("tonemap.exposure"), "2");
+}
+
+TEST_F(PanelsTest, AnEditThatIsLeftByAnotherCounts) {
+    show(draw_parameters_panel);
+    ui.edit = {"shadow_maps.resolution", text("shadow_maps.resolution"), ParameterOrigin::default_value, 128, true};
+    drag("tonemap.exposure", 0.5f, 0.7f);
+    EXPECT_EQ(text("shadow_maps.resolution"), "128");
+    EXPECT_NE(text("tonemap.exposure"), "0");
+    undo.undo();
+    undo.undo();
+    EXPECT_NE(text("shadow_maps.resolution"), "128");
+}
+
 } // namespace
 } // namespace bounce
