@@ -81,6 +81,24 @@ class WindowWork(WindowTest):
         self.input("key", "Escape")
         self.wait(lambda state: not state["keys_shown"], "the end of the keys")
 
+    def test_the_palette_finds_what_there_is(self):
+        self.open(self.shot, *SMALL, "--size", "%dx%d" % PICTURE)
+        camera = self.state()["camera"]
+        for text, row, done in (("exposure", "tonemap.exposure", lambda state: state["filter"] == "tonemap.exposure"),
+                                ("view gbuffer.normal", "gbuffer.normal", lambda state: state["pinned"] == "gbuffer.normal"),
+                                ("final picture", "show the final picture again (unpin)", lambda state: state["pinned"] == "")):
+            self.input("key", "ctrl+p")
+            self.wait(lambda state: "palette.text" in state["widgets"], "the palette")
+            self.events("type", "--delay", 20, text)
+            self.wait(lambda state: "palette.row." + row in state["widgets"], "the row")
+            self.input("key", "Return")
+            self.wait(lambda state: done(state) and "palette.text" not in state["widgets"], "what was chosen")
+        self.input("key", "ctrl+p")
+        self.wait(lambda state: "palette.text" in state["widgets"], "the palette")
+        self.input("key", "Escape")
+        self.wait(lambda state: "palette.text" not in state["widgets"], "the end of the palette")
+        self.assertEqual(self.state()["camera"], camera)
+
     def test_rows_stay_in_their_panel(self):
         """Why a pass is skipped is written over two columns: within the list, however it is scrolled."""
         (self.root / "glsl/user").mkdir()
