@@ -99,6 +99,17 @@ class WindowWork(WindowTest):
         self.wait(lambda state: "palette.text" not in state["widgets"], "the end of the palette")
         self.assertEqual(self.state()["camera"], camera)
 
+    def test_why_it_is_dark(self):
+        """A shot under a sky through a graph that scatters none of it."""
+        shot = json.loads(self.shot.read_text())
+        self.shot.write_text(json.dumps(dict(shot, environment=[1, 1, 1])))
+        (self.root / "assets/graphs/skyless.json").write_text(json.dumps({
+            "version": 1, "extends": "direct", "transport": {"bounces": 1, "parts": ["out.direct"]}}))
+        self.open(self.shot, *SMALL, "--graph", "skyless", "--size", "%dx%d" % PICTURE)
+        self.wait(lambda state: {"banner.text", "banner.open"} <= set(state["widgets"]), "why it is dark")
+        self.click("banner.hide")
+        self.wait(lambda state: "banner.text" not in state["widgets"], "the end of it")
+
     def test_rows_stay_in_their_panel(self):
         """Why a pass is skipped is written over two columns: within the list, however it is scrolled."""
         (self.root / "glsl/user").mkdir()
