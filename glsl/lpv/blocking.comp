@@ -1,7 +1,5 @@
 // The geometry volume (LPV, section 3.4): each cell's surfels are added up view by view, and of the views the one counts that
 // sees most: they see the same surfaces.
-#include "lpv/grid.glsl"
-
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer lpv_surfels { vec4 surfels[]; };

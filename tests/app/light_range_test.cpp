@@ -130,8 +130,10 @@ TEST_F(LightRangeTest, EveryGraphIsLinearInTheLight) {
             light.set(session, scale);
             const LayeredImage seen = picture(session);
             used.insert(session.constants().pre_exposure);
-            // Half floats have 11 bits; a gather adds up some of them.
-            expect_same(seen, truth, scale, scale == 1 ? 1e-6 : 4e-3, graph + " at " + std::to_string(scale));
+            // Half floats have 11 bits; a gather adds up some of them. The harmonics of `lpv` also subtract: where
+            // lobes nearly cancel, the maps' rounding is a larger share of what is left.
+            const double share = graph == "lpv" ? 8e-3 : 4e-3;
+            expect_same(seen, truth, scale, scale == 1 ? 1e-6 : share, graph + " at " + std::to_string(scale));
         }
         EXPECT_GE(used.size(), 4u) << "it was not tried";
     }

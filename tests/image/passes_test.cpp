@@ -118,7 +118,8 @@ TEST_F(Passes, EachRunsInSomeGraphWithoutErrorsAndWithFiniteResults) {
                  {std::pair("shadow_maps.resolution", "128"), std::pair("ldm.maps", "16"),
                   std::pair("ldm.resolution", "32"), std::pair("rsm.resolution", "64"),
                   std::pair("graph.accumulate", "true"), std::pair("vf_proxies.proxies", "2000"),
-                  std::pair("points.proxies", "2000"), std::pair("vpls.vpls", "64"), std::pair("splat.points", "500")})
+                  std::pair("points.proxies", "2000"), std::pair("vpls.vpls", "64"), std::pair("splat.points", "500"),
+                  std::pair("inject.route", "blended")})
                 if (name == large) session.set_parameter(name, smaller, ParameterOrigin::panel);
         for (const auto& node : session.graph().model().nodes()) // views of C++ are off until somebody looks
             if (!node->enabled && node->entry.type != "compute") session.graph().model().switch_pass(node->id(), true);

@@ -54,7 +54,7 @@ void main() {
 }
 )");
         Changes changes;
-        changes.removed = R"("inject")";
+        changes.removed = R"("blend","inject")";
         changes.passes = R"({"after":"blocking","id":"inject","type":"compute","shader":"test/light.comp",
             "needs":"lights","dispatch":["lpv.sum.count"]})";
         return make(std::move(scene), {point_light({0.4f, 1.5f, 0.2f}, {3, 4, 5})}, sets, changes);

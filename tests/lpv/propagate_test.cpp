@@ -203,7 +203,7 @@ void main() {
 }
 )");
     Changes changes;
-    changes.removed = R"("inject","blocking")";
+    changes.removed = R"("blend","inject","blocking")";
     changes.passes = R"({"after":"surfels","id":"blocking","type":"compute","shader":"test/wall.comp","needs":"lights",
             "dispatch":["lpv.blocking.count"]},
         {"id":"inject","type":"compute","shader":"test/light.comp","needs":"lights","dispatch":["lpv.sum.count"]})";
