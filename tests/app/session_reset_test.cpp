@@ -1,12 +1,11 @@
 // A reset of the GPU costs the GPU's objects and nothing else: another context takes the lost one's place, and what a
 // person sees and has set is there again.
-#include "app/session.h"
+#include "app/tiny_session.h"
 #include "gpu/context_loss.h"
 #include "gpu/objects.h"
 #include "support/errors.h"
 #include "support/gpu_context.h"
 #include "support/temp_folder.h"
-#include "support/tiny_scene.h"
 
 #include <gmock/gmock.h>
 
@@ -17,18 +16,7 @@ using testing::Not;
 
 class SessionReset : public GpuTest {
   protected:
-    SessionOptions options() {
-        TinyScene()
-            .quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1})
-            .box({-0.3f, 0, -0.3f}, {0.2f, 0.6f, 0.2f})
-            .write(root.path(), "tiny");
-        SessionOptions out;
-        out.shot = write_shot(root.path(), "tiny", "tiny.gltf", {0.4f, 1, 2}, {0, 0.2f, 0},
-                              R"({"type":"point","position":[-0.7,1,0.4],"intensity":2})");
-        out.size = {32, 18};
-        out.sets = {{"shadow_maps.resolution", "64"}};
-        return out;
-    }
+    SessionOptions options() { return tiny_session(root.path()); }
     static std::vector<float> picture(Session& session) { return session.graph().texture("out.radiance")->read(); }
     static std::string problems(const Session& session) {
         std::string text;

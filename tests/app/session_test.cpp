@@ -1,11 +1,10 @@
 // The session: what both hosts drive.
 #include "app/capture.h"
-#include "app/session.h"
 #include "app/timings.h"
+#include "app/tiny_session.h"
 #include "support/errors.h"
 #include "support/gpu_context.h"
 #include "support/temp_folder.h"
-#include "support/tiny_scene.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -16,18 +15,7 @@ using testing::HasSubstr;
 
 class SessionTest : public GpuTest {
   protected:
-    SessionOptions options() {
-        TinyScene()
-            .quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1})
-            .box({-0.3f, 0, -0.3f}, {0.2f, 0.6f, 0.2f})
-            .write(root.path(), "tiny");
-        SessionOptions out;
-        out.shot = write_shot(root.path(), "tiny", "tiny.gltf", {0.4f, 1, 2}, {0, 0.2f, 0},
-                              R"({"type":"point","position":[-0.7,1,0.4],"intensity":2})");
-        out.size = {32, 18};
-        out.sets = {{"shadow_maps.resolution", "64"}};
-        return out;
-    }
+    SessionOptions options() { return tiny_session(root.path()); }
     std::vector<float> picture(Session& session) { return session.graph().texture("out.radiance")->read(); }
     TempRoot root;
 };
