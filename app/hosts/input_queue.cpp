@@ -28,7 +28,7 @@ bool InputQueue::fits(const Frame& frame, const InputEvent& event) {
     case Kind::wheel:
         return !frame.button && !frame.pressed && !frame.text;
     case Kind::key:
-        // Of two keys that were pressed in one frame a text field would obey one.
+        // Of two keys that were pressed in one frame a text field would see only one.
         return !frame.keys.contains(event.code) && !frame.button && !frame.wheeled && !frame.text &&
                (!event.down || (!frame.pressed && !frame.moved));
     case Kind::modifier:

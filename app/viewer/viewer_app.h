@@ -73,10 +73,10 @@ class ViewerApp {
 
     // viewer_commands.cpp
     void run_command(const KeyPress& key);
-    void obey_time(KeyCommand command);
-    void obey_camera(KeyCommand command, const std::string& chord);
-    void obey_files(KeyCommand command);
-    void obey_window(KeyCommand command);
+    void handle_time(KeyCommand command);
+    void handle_camera(KeyCommand command, const std::string& chord);
+    void handle_files(KeyCommand command);
+    void handle_window(KeyCommand command);
 
     ViewOptions options_;
     UiState ui_;

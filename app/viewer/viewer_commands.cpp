@@ -19,14 +19,14 @@ void ViewerApp::run_command(const KeyPress& key) {
     if (command == KeyCommand::none) return;
     gui_frames_ = 4;
     attempt([&] {
-        obey_time(command);
-        obey_camera(command, chord);
-        obey_files(command);
-        obey_window(command);
+        handle_time(command);
+        handle_camera(command, chord);
+        handle_files(command);
+        handle_window(command);
     });
 }
 
-void ViewerApp::obey_time(KeyCommand command) {
+void ViewerApp::handle_time(KeyCommand command) {
     switch (command) {
     case KeyCommand::play:
         ui_.paused = !ui_.paused;
@@ -54,7 +54,7 @@ static const Bookmark* bookmark_of(const WindowState& state, const std::string& 
     return nullptr;
 }
 
-void ViewerApp::obey_camera(KeyCommand command, const std::string& chord) {
+void ViewerApp::handle_camera(KeyCommand command, const std::string& chord) {
     switch (command) {
     case KeyCommand::frame_scene:
         session_->set_camera(camera_of_whole_scene(*session_), true);
@@ -97,7 +97,7 @@ void ViewerApp::obey_camera(KeyCommand command, const std::string& chord) {
     ui_.redraw();
 }
 
-void ViewerApp::obey_files(KeyCommand command) {
+void ViewerApp::handle_files(KeyCommand command) {
     PanelContext panels = context();
     switch (command) {
     case KeyCommand::capture_png:
@@ -120,7 +120,7 @@ void ViewerApp::obey_files(KeyCommand command) {
     }
 }
 
-void ViewerApp::obey_window(KeyCommand command) {
+void ViewerApp::handle_window(KeyCommand command) {
     auto scale = [&](float factor) {
         ui_.window.interface_scale = std::clamp(ui_.window.interface_scale * factor, 0.5f, 3.0f);
         make_interface();
