@@ -1,9 +1,8 @@
 // Every registered pass, on a tiny scene with every kind of light: no OpenGL error, nothing that is not finite.
 #include "app/session.h"
 #include "core/paths.h"
+#include "image/every_graph.h"
 #include "support/gpu_context.h"
-#include "support/temp_folder.h"
-#include "support/tiny_scene.h"
 
 #include <algorithm>
 #include <fstream>
@@ -20,30 +19,8 @@ std::string read_text(const std::filesystem::path& file) {
     return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
-std::vector<std::string> graph_names() {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(real_root() / "assets/graphs"))
-        if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-    std::sort(names.begin(), names.end());
-    return names;
-}
-
 class Passes : public GpuTest {
   protected:
-    std::string tiny_shot() {
-        TinyScene()
-            .quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, {0.7f, 0.6f, 0.5f})
-            .box({-0.3f, 0, -0.3f}, {0.2f, 0.6f, 0.2f}, {0.4f, 0.5f, 0.8f})
-            .quad({-0.8f, 0.01f, 0.6f}, {-0.5f, 0.01f, 0.6f}, {-0.5f, 0.3f, 0.5f}, {-0.8f, 0.3f, 0.5f})
-            .emission({0.9f, 0.8f, 0.3f})
-            .write(folder.path(), "tiny");
-        return write_shot(
-            folder.path(), "tiny", "tiny.gltf", {0.4f, 1, 2}, {0, 0.2f, 0},
-            R"({"type":"spot","position":[0.5,2,0.5],"direction":[-0.2,-1,-0.2],"intensity":4,"outer_cone_deg":40},)"
-            R"({"type":"point","position":[-0.7,1,0.4],"intensity":2},)"
-            R"({"type":"directional","direction":[0.3,-1,-0.2],"intensity":1})",
-            R"(,"environment":[0.2,0.3,0.4])");
-    }
     TempFolder folder;
 };
 
@@ -104,7 +81,7 @@ TEST(SwitchedOff, WhatAPassWouldMakeIsMadeWhenItIsAskedFor) {
 }
 
 TEST_F(Passes, EachRunsInSomeGraphWithoutErrorsAndWithFiniteResults) {
-    std::string shot = tiny_shot();
+    std::string shot = tiny_shot(folder);
     std::set<std::string> ran;
     for (const std::string& graph : graph_names()) {
         SessionOptions options;
