@@ -24,21 +24,24 @@ struct StabilityArguments {
     int frames = 24;
     float fps = 0;
     std::string output;
+    bool resume = false;
 };
 
 /// As a table under the head of all results.
 std::string flicker_markdown(const StabilityArguments& arguments, const Session& session,
                              const FlickerFigures& figures) {
     return origin_head({origin_here()}) +
-           fmt::format("\n| picture | shot | graph | frames | mean | change | flicker | 99th percentile |\n"
-                       "| --- | --- | --- | ---: | ---: | ---: | ---: | ---: |\n"
-                       "| {} | {} | {} | {} | {:.5g} | {:.3f} % | {:.3f} % | {:.3f} % |\n",
-                       markdown_cell(arguments.resource), markdown_cell(session.shot().name),
-                       markdown_cell(session.graph().model().file().name), figures.frames, figures.mean,
-                       100 * figures.change, 100 * figures.flicker, 100 * figures.flicker_p99);
+           fmt::format(
+               "\n| picture | shot | graph | frames | mean | change | flicker | 99th percentile | FLIP over time |\n"
+               "| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n"
+               "| {} | {} | {} | {} | {:.5g} | {:.3f} % | {:.3f} % | {:.3f} % | {:.4f} |\n",
+               markdown_cell(arguments.resource), markdown_cell(session.shot().name),
+               markdown_cell(session.graph().model().file().name), figures.frames, figures.mean, 100 * figures.change,
+               100 * figures.flicker, 100 * figures.flicker_p99, figures.flip);
 }
 
 int print_flicker(const StabilityArguments& arguments) {
+    if (arguments.resume) throw Error("invalid --resume: expected cases, not a shot");
     if (!arguments.graphs.empty() || !arguments.cases.empty())
         throw Error("invalid stability: expected either a shot with --graph, or --graphs and --cases without a shot");
     arguments.session.check_names();
@@ -50,9 +53,9 @@ int print_flicker(const StabilityArguments& arguments) {
     if (arguments.fps > 0) session.shot().fps = arguments.fps;
     FlickerFigures figures = measure_flicker(session, arguments.resource, arguments.frames);
     print("{} of {} through {}, {} frames: mean {:.5g}, change {:.3f} %, flicker {:.3f} %, 99th percentile {:.3f} "
-          "%\n",
+          "%, FLIP over time {:.4f}\n",
           arguments.resource, session.shot().name, session.graph().model().file().name, figures.frames, figures.mean,
-          100 * figures.change, 100 * figures.flicker, 100 * figures.flicker_p99);
+          100 * figures.change, 100 * figures.flicker, 100 * figures.flicker_p99, figures.flip);
     if (!arguments.output.empty())
         write_file_atomically(arguments.output, flicker_markdown(arguments, session, figures));
     return 0;
@@ -60,6 +63,7 @@ int print_flicker(const StabilityArguments& arguments) {
 
 /// Every case with every graph. The files are written after each cell, so that what was measured is kept.
 int print_suite(const StabilityArguments& arguments) {
+    if (arguments.resume && arguments.output.empty()) throw Error("invalid --resume: expected a folder, -o DIR");
     const std::vector<std::string> graphs =
         split(arguments.graphs.empty() ? arguments.session.graph : arguments.graphs, ',');
     for (const std::string& graph : graphs)
@@ -79,13 +83,19 @@ int print_suite(const StabilityArguments& arguments) {
         std::filesystem::create_directories(arguments.output, error);
         if (error) throw Error(fmt::format("cannot create the folder '{}': {}", arguments.output, error.message()));
     }
+    StabilitySuite suite{std::move(cases), graphs, {}, {}};
+    const SessionOptions options = arguments.session.options();
+    suite.own.sets.insert(options.sets.begin(), options.sets.end());
+    suite.own.switches.insert(options.switches.begin(), options.switches.end());
+    if (arguments.resume) suite.known = read_stability(arguments.output);
     HeadlessContext context(arguments.session.device);
     const Origin origin = origin_here();
-    run_stability(cases, graphs, [&](const std::vector<StabilityRow>& rows) {
+    run_stability(suite, [&](const std::vector<StabilityRow>& rows, bool known) {
         const StabilityRow& row = rows.back();
         const StabilityCell& cell = row.cells.back();
-        print("{}, {}: {}\n", row.which.name, cell.graph,
-              cell.failure.empty() ? cell_text(row.which, cell) : "not measured: " + cell.failure);
+        print("{}, {}: {}{}\n", row.which.name, cell.graph,
+              cell.failure.empty() ? cell_text(row.which, cell) : "not measured: " + cell.failure,
+              known ? " (measured before)" : "");
         std::fflush(stdout);
         if (!arguments.output.empty()) write_stability(rows, origin, arguments.output);
     });
@@ -117,6 +127,8 @@ void add_stability_command(CLI::App& app, CommandFunction& chosen) {
     command->add_option("-o,--output", a->output, "write to this .md, or of cases to this folder")
         ->type_name("FILE")
         ->check(not_empty());
+    command->add_flag("--resume", a->resume,
+                      "of cases: keeps what the folder of -o holds of this very program, case and graph");
     command->callback(
         [a, &chosen] { chosen = [a] { return a->session.shot.empty() ? print_suite(*a) : print_flicker(*a); }; });
 }

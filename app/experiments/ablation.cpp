@@ -48,6 +48,7 @@ void measure_part(VariantMeasurer& measurer, const VariantFigures& whole, Ablate
     part.time_change = part.figures.ms / whole.ms - 1;
     part.bytes_change = double(part.figures.bytes) / double(whole.bytes) - 1;
     part.error_change = part.figures.error - whole.error;
+    part.flicker_change = part.figures.flicker - whole.flicker;
     part.uncertainty = std::hypot(part.figures.error_spread, whole.error_spread);
 }
 

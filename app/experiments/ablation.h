@@ -25,10 +25,11 @@ struct AblatedPart {
     std::string failed; ///< why the graph does not work without it; "" otherwise
     VariantFigures figures;
     /// Of the graph without it against the whole one.
-    double time_change = 0;  ///< share of the whole's time: −0.3 = 30 % less without it
-    double bytes_change = 0; ///< likewise
-    double error_change = 0; ///< points of relative RMSE: 0.1 = 10 points more without it
-    double uncertainty = 0;  ///< of error_change: one standard deviation over the frames of both
+    double time_change = 0;    ///< share of the whole's time: −0.3 = 30 % less without it
+    double bytes_change = 0;   ///< likewise
+    double error_change = 0;   ///< points of relative RMSE: 0.1 = 10 points more without it
+    double flicker_change = 0; ///< points of flicker, likewise
+    double uncertainty = 0;    ///< of error_change: one standard deviation over the frames of both
 };
 
 struct Ablation {

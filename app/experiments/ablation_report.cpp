@@ -51,8 +51,10 @@ std::string bar(double value, double largest) {
 } // namespace
 
 std::string ablation_markdown(const Ablation& ablation, const AblationSettings& settings, const Origin& origin) {
-    std::string out = origin_head({origin}) + "\n" + markdown_cell(summary(ablation, settings)) +
-                      "\n\n| without | time | memory | error, points | bias |\n| --- | ---: | ---: | ---: | ---: |\n";
+    std::string out =
+        origin_head({origin}) + "\n" + markdown_cell(summary(ablation, settings)) +
+        "\n\n| without | time | memory | error, points | flicker, points | bias |\n| --- | ---: | ---: | ---: | ---: "
+        "| ---: |\n";
     std::string failures;
     for (const std::vector<AblatedPart>* list : {&ablation.parts, &ablation.pairs})
         for (const AblatedPart& part : *list) {
@@ -60,19 +62,21 @@ std::string ablation_markdown(const Ablation& ablation, const AblationSettings& 
                 failures += fmt::format("- {}: {}\n", markdown_cell(part.name), markdown_cell(part.failed));
                 continue;
             }
-            out += fmt::format("| {} | {} | {} | {} | {} |\n", markdown_cell(part.name), percent(part.time_change),
-                               percent(part.bytes_change), points(part.error_change, part.uncertainty),
+            out += fmt::format("| {} | {} | {} | {} | {:+.2f} | {} |\n", markdown_cell(part.name),
+                               percent(part.time_change), percent(part.bytes_change),
+                               points(part.error_change, part.uncertainty), 100 * part.flicker_change,
                                percent(part.figures.bias));
         }
     return failures.empty() ? out : out + "\nThe graph does not work without:\n\n" + failures;
 }
 
 std::string ablation_csv(const Ablation& ablation) {
-    std::string out = "without,ms,bytes,error,error_spread,bias,time_change,bytes_change,error_change,failed\n";
+    std::string out = "without,ms,bytes,error,error_spread,bias,flicker,time_change,bytes_change,error_change,flicker_"
+                      "change,failed\n";
     const auto line = [&](const std::string& name, const VariantFigures& f, const AblatedPart& p) {
-        out += fmt::format("{},{:.6g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}\n", csv_field(name), f.ms,
-                           f.bytes, f.error, f.error_spread, f.bias, p.time_change, p.bytes_change, p.error_change,
-                           csv_field(p.failed));
+        out += fmt::format("{},{:.6g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}\n", csv_field(name),
+                           f.ms, f.bytes, f.error, f.error_spread, f.bias, f.flicker, p.time_change, p.bytes_change,
+                           p.error_change, p.flicker_change, csv_field(p.failed));
     };
     line("", ablation.whole, {});
     for (const std::vector<AblatedPart>* list : {&ablation.parts, &ablation.pairs})
@@ -91,7 +95,7 @@ std::string ablation_html(const Ablation& ablation, const AblationSettings& sett
     std::string body = "<h1>What each part buys</h1>\n<p>" + escape_markup(origin_head({origin})) + "</p>\n<p>" +
                        escape_markup(summary(ablation, settings)) +
                        "</p>\n<table><tr><th>without</th><th colspan=\"2\">error, points</th><th colspan=\"2\">time"
-                       "</th><th>memory</th><th>where, 0 … 50 %</th></tr>\n";
+                       "</th><th>memory</th><th>flicker, points</th><th>where, 0 … 50 %</th></tr>\n";
     const double mean = [&] {
         double sum = 0;
         for (float value : measurer.reference().pixels)
@@ -101,7 +105,7 @@ std::string ablation_html(const Ablation& ablation, const AblationSettings& sett
     for (const std::vector<AblatedPart>* list : {&ablation.parts, &ablation.pairs})
         for (const AblatedPart& part : *list) {
             if (!part.failed.empty()) {
-                body += fmt::format("<tr><td>{}</td><td colspan=\"6\">{}</td></tr>\n", escape_markup(part.name),
+                body += fmt::format("<tr><td>{}</td><td colspan=\"7\">{}</td></tr>\n", escape_markup(part.name),
                                     escape_markup(part.failed));
                 continue;
             }
@@ -113,12 +117,13 @@ std::string ablation_html(const Ablation& ablation, const AblationSettings& sett
                                               ablation.whole.picture.pixels[i * size_t(channels) + size_t(c)]);
                 map.pixels[i] = mean > 0 ? float(map.pixels[i] / (channels * mean)) : 0;
             }
-            body += fmt::format(
-                "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td><img alt=\"\" "
-                "src=\"data:image/png;base64,{}\"></td></tr>\n",
-                escape_markup(part.name), points(part.error_change, part.uncertainty),
-                bar(part.error_change, most_error), percent(part.time_change), bar(part.time_change, most_time),
-                percent(part.bytes_change), base64(encode_png(heat_map(map, 0, 0.5f))));
+            body += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:+.2f}</"
+                                "td><td><img alt=\"\" "
+                                "src=\"data:image/png;base64,{}\"></td></tr>\n",
+                                escape_markup(part.name), points(part.error_change, part.uncertainty),
+                                bar(part.error_change, most_error), percent(part.time_change),
+                                bar(part.time_change, most_time), percent(part.bytes_change), 100 * part.flicker_change,
+                                base64(encode_png(heat_map(map, 0, 0.5f))));
         }
     return html_page("what each part buys", "img{width:180px}svg{display:inline-block}\n", body + "</table>\n");
 }

@@ -2,6 +2,7 @@
 // How steady a part of the picture is from frame to frame while lights or objects of the shot move in small steps.
 
 #include "app/session.h"
+#include "core/image.h"
 
 #include <string>
 #include <vector>
@@ -16,7 +17,28 @@ struct FlickerFigures {
     double change = 0;      ///< RMS of L(i+1) − L(i), over the mean
     double flicker = 0;     ///< RMS of the second difference, over the mean
     double flicker_p99 = 0; ///< 99th percentile of its magnitude, over the mean
+    /// FLIP over time: the mean FLIP of each frame to the mean of the two beside it, as displays show them.
+    double flip = 0;
 };
+
+/// Sums up the changes of luminance from frame to frame, frames of one size.
+class SecondDifference {
+  public:
+    void add(std::vector<float> luminance);
+    int frames() const { return frames_; }
+    double mean() const { return count_ > 0 ? sum_ / double(count_) : 0; }
+    double change() const;      ///< RMS of L(i+1) − L(i), over the mean
+    double flicker() const;     ///< RMS of the second difference, over the mean; 0 below three frames
+    double flicker_p99() const; ///< 99th percentile of its magnitude, over the mean
+
+  private:
+    std::vector<float> before_, last_, magnitudes_;
+    double sum_ = 0, first_squares_ = 0, second_squares_ = 0;
+    size_t count_ = 0, firsts_ = 0;
+    int frames_ = 0;
+};
+
+std::vector<float> luminance_of(const Image& image);
 
 /// Luminance of a 2D picture of the graph, as light is meant (without the pre-exposure). Throws Error when there is
 /// none.

@@ -38,6 +38,15 @@ const ContentReader::GraphContent& ContentReader::graph_content(const std::strin
     return graphs_.emplace(graph, std::move(content)).first->second;
 }
 
+std::string ContentReader::graph_digest(const std::string& graph) {
+    const GraphContent& content = graph_content(graph);
+    ContentHash hash;
+    hash.add(content.text);
+    for (const auto& [pass, digest] : content.shaders)
+        hash.add(pass + digest);
+    return hash.text();
+}
+
 PointContent ContentReader::content_of(const PointTask& task) {
     const SessionOptions& session = task.session;
     const int frames = task.warm_up + task.frames;

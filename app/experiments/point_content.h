@@ -15,6 +15,8 @@ class ContentReader {
   public:
     /// Throws Error when the shot, the graph or a parameter is bad.
     PointContent content_of(const PointTask& task);
+    /// Of the graph with the shaders of all its passes. Throws Error when it is bad.
+    std::string graph_digest(const std::string& graph);
 
   private:
     struct GraphContent {

@@ -13,7 +13,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::array k_quantities = {"share", "difference", "flicker", "error", "bias", "mean", "time"};
+constexpr std::array k_quantities = {"share", "difference", "flicker", "flip", "error", "bias", "mean", "time"};
 constexpr std::array k_summaries = {"worst", "first", "last", "growth"};
 constexpr size_t k_max_rungs = 64;
 
@@ -59,6 +59,10 @@ void read_ladder(const ordered_json& json, StabilityCase& which, ErrorList& erro
 
 } // namespace
 
+bool is_over_time(StabilityQuantity quantity) {
+    return quantity == StabilityQuantity::flicker || quantity == StabilityQuantity::flip;
+}
+
 const char* name_of(StabilityQuantity quantity) {
     return k_quantities[size_t(quantity)];
 }
@@ -77,6 +81,7 @@ StabilityCase load_stability_case(const std::string& name) {
     ErrorList errors;
     StabilityCase which;
     which.name = path.stem().string();
+    which.text = json.dump();
     check_keys(json, "the case",
                {"about", "ladder", "unit", "names", "scenes", "shot", "set", "quantity", "summary", "against",
                 "expected", "resource", "size", "frames", "samples", "diffuse_only", "most"},
@@ -88,7 +93,7 @@ StabilityCase load_stability_case(const std::string& name) {
     read_ladder(json, which, errors);
     which.quantity = StabilityQuantity(choice(json, "quantity", k_quantities, int(StabilityQuantity::error), errors));
     which.summary = StabilitySummary(choice(json, "summary", k_summaries, int(StabilitySummary::worst), errors));
-    which.frames = whole_at(json, "frames", 1, 10000, which.quantity == StabilityQuantity::flicker ? 12 : 1, errors);
+    which.frames = whole_at(json, "frames", 1, 10000, is_over_time(which.quantity) ? 12 : 1, errors);
     which.samples = whole_at(json, "samples", 2, 1 << 20, which.samples, errors);
     if (json.contains("diffuse_only")) {
         if (json["diffuse_only"].is_boolean())
@@ -122,7 +127,7 @@ StabilityCase load_stability_case(const std::string& name) {
     if (which.scenes.empty() ? !which.shot.is_string() : !which.shot.is_object())
         errors.add(which.scenes.empty() ? "'shot' must be the name of one where there are no 'scenes'"
                                         : "'shot' must be an object where there are 'scenes'");
-    if (which.quantity == StabilityQuantity::flicker && which.frames < 3)
+    if (is_over_time(which.quantity) && which.frames < 3)
         errors.add("frames: expected 3 or more, for the second difference");
     if (which.quantity == StabilityQuantity::mean && which.expected.empty())
         errors.add("'expected' must be an expression where the quantity is mean");
@@ -132,6 +137,7 @@ StabilityCase load_stability_case(const std::string& name) {
 
 std::string stability_text(const StabilityCase& which, double value, bool summarised) {
     if (summarised && which.summary == StabilitySummary::growth) return fmt::format("{:.3g} ×", value);
+    if (which.quantity == StabilityQuantity::flip) return fmt::format("{:.3g}", value);
     if (which.quantity == StabilityQuantity::time) return fmt::format("{:.3g} ms", value);
     const bool is_signed = which.quantity == StabilityQuantity::bias || which.quantity == StabilityQuantity::mean;
     return is_signed ? fmt::format("{:+.3g} %", 100 * value) : fmt::format("{:.3g} %", 100 * value);

@@ -24,6 +24,7 @@ enum class StabilityQuantity {
     share,      ///< the resource's sum, as a share of that with the names of `against`
     difference, ///< RMS of the difference from the picture with the names of `against`, over that picture's mean
     flicker,    ///< RMS of the second difference from frame to frame, over the mean (flicker.h)
+    flip,       ///< FLIP over time (flicker.h)
     error,      ///< RMSE against the reference of the graph's transport, over its mean
     bias,       ///< the mean against that reference's
     mean,       ///< the mean against `expected`
@@ -35,6 +36,7 @@ enum class StabilitySummary { worst, first, last, growth /**< the last over the 
 
 struct StabilityCase {
     std::string name, about, unit, step; ///< step: the ladder's name
+    std::string text;                    ///< the whole file, as compact JSON
     std::vector<double> ladder;
     StabilityQuantity quantity = StabilityQuantity::error;
     StabilitySummary summary = StabilitySummary::worst;
@@ -50,6 +52,8 @@ std::vector<std::string> stability_case_names();
 /// A path, or a name of assets/stability. Throws Error that lists every problem.
 StabilityCase load_stability_case(const std::string& name);
 
+/// Whether it compares frames with the next ones.
+bool is_over_time(StabilityQuantity quantity);
 /// "share", "worst", …: as files and tables name them.
 const char* name_of(StabilityQuantity quantity);
 const char* name_of(StabilitySummary summary);

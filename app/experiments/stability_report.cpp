@@ -3,6 +3,8 @@
 #include "app/experiments/csv.h"
 #include "app/experiments/html_page.h"
 #include "app/experiments/svg_scatter.h"
+#include "app/experiments/table_file.h"
+#include "core/error.h"
 #include "core/image.h"
 #include "core/printable.h"
 #include "core/text.h"
@@ -146,7 +148,8 @@ std::string stability_json(const std::vector<StabilityRow>& rows, const Origin& 
                             {"ladder", row.which.ladder},
                             {"graphs", ordered_json::object()}};
         for (const StabilityCell& cell : row.cells) {
-            ordered_json measured = {{"curve", cell.curve}, {"reached", cell.reached}, {"seconds", cell.seconds}};
+            ordered_json measured = {
+                {"key", cell.key}, {"curve", cell.curve}, {"reached", cell.reached}, {"seconds", cell.seconds}};
             if (cell.figure) measured["figure"] = *cell.figure;
             if (!cell.failure.empty()) measured["failure"] = printable(cell.failure);
             one["graphs"][cell.graph] = measured;
@@ -154,6 +157,34 @@ std::string stability_json(const std::vector<StabilityRow>& rows, const Origin& 
         out["cases"].push_back(one);
     }
     return out.dump(1) + "\n";
+}
+
+std::vector<StabilityRow> read_stability(const std::filesystem::path& folder) {
+    std::vector<StabilityRow> rows;
+    const std::filesystem::path path = folder / "stability.json";
+    if (!std::filesystem::exists(path)) return rows;
+    const ordered_json read = read_table(path);
+    try {
+        for (const ordered_json& one : read.at("cases")) {
+            StabilityRow row;
+            row.which.name = one.at("case").get<std::string>();
+            for (const auto& [graph, measured] : one.at("graphs").items()) {
+                if (measured.contains("failure")) continue; // it may work now
+                StabilityCell cell;
+                cell.graph = graph;
+                cell.key = measured.value("key", "");
+                cell.curve = measured.at("curve").get<std::vector<double>>();
+                cell.figure = measured.at("figure").get<double>();
+                cell.reached = measured.at("reached").get<bool>();
+                cell.seconds = measured.at("seconds").get<double>();
+                row.cells.push_back(std::move(cell));
+            }
+            rows.push_back(std::move(row));
+        }
+    } catch (const ordered_json::exception& error) {
+        throw Error(path.string() + ": not what stability writes: " + error.what());
+    }
+    return rows;
 }
 
 std::string stability_html(const std::vector<StabilityRow>& rows, const Origin& origin) {

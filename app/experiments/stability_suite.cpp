@@ -3,7 +3,10 @@
 #include "app/broken_shaders.h"
 #include "app/experiments/error_table.h"
 #include "app/experiments/flicker.h"
+#include "app/experiments/point_content.h"
 #include "app/experiments/stability_rung.h"
+#include "app/origin.h"
+#include "core/digest.h"
 #include "core/temporary_folder.h"
 #include "core/text.h"
 #include "graph/shader_log.h"
@@ -11,6 +14,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fmt/format.h>
 #include <memory>
 #include <numeric>
 
@@ -45,11 +49,12 @@ class StabilityMeasurement::Rungs {
         }
         case StabilityQuantity::difference:
             return difference(picture(names), picture(names_of_rung(which_, value, true, bounces_)));
-        case StabilityQuantity::flicker: {
+        case StabilityQuantity::flicker:
+        case StabilityQuantity::flip: {
             const std::unique_ptr<Session> session = open(names);
             const FlickerFigures figures = measure_flicker(*session, which_.resource, which_.frames);
             if (!(figures.mean > 0)) throw Error("there is no light");
-            return figures.flicker;
+            return which_.quantity == StabilityQuantity::flip ? figures.flip : figures.flicker;
         }
         case StabilityQuantity::mean:
             return mean_of(picture(names)) / expected_of(which_, names) - 1;
@@ -177,13 +182,13 @@ double summary_of(StabilitySummary summary, const std::vector<double>& curve) {
     return *std::max_element(curve.begin(), curve.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
 }
 
-StabilityCell measure_stability(const StabilityCase& which, const std::string& graph) {
+StabilityCell measure_stability(const StabilityCase& which, const std::string& graph, const Variant& own) {
     StabilityCell cell;
     cell.graph = graph;
     const auto start = std::chrono::steady_clock::now();
     set_shader_errors_logged(false);
     try {
-        StabilityMeasurement measurement(which, graph);
+        StabilityMeasurement measurement(which, graph, own);
         while (!measurement.done()) {
             measurement.step();
             cell.curve = measurement.curve();
@@ -197,14 +202,32 @@ StabilityCell measure_stability(const StabilityCase& which, const std::string& g
     return cell;
 }
 
-std::vector<StabilityRow> run_stability(const std::vector<StabilityCase>& cases, const std::vector<std::string>& graphs,
-                                        const std::function<void(const std::vector<StabilityRow>&)>& done) {
+static std::string key_of(const StabilityCase& which, const std::string& graph_digest, const Variant& own) {
+    Digest digest;
+    digest.add(origin_here().commit).add(which.text).add(own.text()).add(graph_digest);
+    return fmt::format("{:016x}", digest.value());
+}
+
+static const StabilityCell* find_cell(const std::vector<StabilityRow>& rows, const StabilityCase& which,
+                                      const std::string& graph, const std::string& key) {
+    for (const StabilityRow& row : rows)
+        for (const StabilityCell& cell : row.cells)
+            if (row.which.name == which.name && cell.graph == graph && cell.key == key) return &cell;
+    return nullptr;
+}
+
+std::vector<StabilityRow> run_stability(const StabilitySuite& suite,
+                                        const std::function<void(const std::vector<StabilityRow>&, bool)>& done) {
     std::vector<StabilityRow> rows;
-    for (const StabilityCase& which : cases) {
+    ContentReader reader;
+    for (const StabilityCase& which : suite.cases) {
         rows.push_back({which, {}});
-        for (const std::string& graph : graphs) {
-            rows.back().cells.push_back(measure_stability(which, graph));
-            done(rows);
+        for (const std::string& graph : suite.graphs) {
+            const std::string key = key_of(which, reader.graph_digest(graph), suite.own);
+            const StabilityCell* known = find_cell(suite.known, which, graph, key);
+            rows.back().cells.push_back(known ? *known : measure_stability(which, graph, suite.own));
+            rows.back().cells.back().key = key;
+            done(rows, known != nullptr);
         }
     }
     return rows;

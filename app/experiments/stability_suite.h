@@ -17,6 +17,7 @@ struct StabilityCell {
     std::optional<double> figure; ///< what is held to the mark; none with a failure
     double seconds = 0;           ///< that it took
     bool reached = false;         ///< |figure| ≤ the case's mark
+    std::string key;              ///< digest of all that made it: program, case, graph, settings
 };
 
 struct StabilityRow {
@@ -48,10 +49,19 @@ class StabilityMeasurement {
 double summary_of(StabilitySummary summary, const std::vector<double>& curve);
 
 /// Measures one case with one graph; what cannot be measured is the cell's failure. Needs a current OpenGL context.
-StabilityCell measure_stability(const StabilityCase& which, const std::string& graph);
+StabilityCell measure_stability(const StabilityCase& which, const std::string& graph, const Variant& own = {});
 
-/// All cases with all graphs, case by case. `done` gets the rows so far after each cell.
-std::vector<StabilityRow> run_stability(const std::vector<StabilityCase>& cases, const std::vector<std::string>& graphs,
-                                        const std::function<void(const std::vector<StabilityRow>&)>& done);
+struct StabilitySuite {
+    std::vector<StabilityCase> cases;
+    std::vector<std::string> graphs;
+    Variant own; ///< what is set of every graph besides
+    /// Cells that were measured before: one with the same case, graph and key is taken over.
+    std::vector<StabilityRow> known;
+};
+
+/// All cases with all graphs, case by case. `done` gets the rows so far after each cell, and whether that cell was
+/// known.
+std::vector<StabilityRow> run_stability(const StabilitySuite& suite,
+                                        const std::function<void(const std::vector<StabilityRow>&, bool)>& done);
 
 } // namespace bounce

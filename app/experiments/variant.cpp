@@ -2,6 +2,7 @@
 
 #include "app/broken_shaders.h"
 #include "app/capture.h"
+#include "app/experiments/flicker.h"
 #include "app/experiments/transport.h"
 #include "core/comparison.h"
 #include "core/error.h"
@@ -90,20 +91,24 @@ VariantFigures VariantMeasurer::measure(const Variant& variant) {
     comparison.absent_is_black = true;
     comparison.shown = false;
     std::vector<double> errors;
+    SecondDifference flicker;
     for (int frame = 0; frame < k_warm_up + frames_; ++frame) {
         if (frame > 0) session_->advance();
         if (frame == k_warm_up) session_->graph().forget_timings();
         session_->render(true);
         const bool last = frame + 1 == k_warm_up + frames_;
-        if (frame < k_warm_up || (!still_ && !last)) continue;
+        if (frame < k_warm_up) continue;
         throw_if_broken(*session_, variant.text());
         const LayeredImage picture = read_parts(*session_);
+        flicker.add(luminance_of(part_or_black(picture, parts_, truth_part_)));
+        if (!still_ && !last) continue;
         const LayerComparison compared = compare_layers(picture, truth_, comparison);
         const MetricValues& values = compared.parts.front().figures;
         errors.push_back(values["relative_rmse_denoised"]);
         figures.bias = values["bias"];
         if (last) figures.picture = part_or_black(picture, parts_, truth_part_);
     }
+    figures.flicker = flicker.flicker();
     session_->graph().finish_timings();
     figures.ms = session_->graph().frame_ms();
     figures.bytes = session_->graph().plan().total_bytes();

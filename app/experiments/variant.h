@@ -26,7 +26,8 @@ struct VariantFigures {
     double error = 0, error_spread = 0; ///< relative RMSE without the reference's noise; its standard deviation over
                                         ///< the frames, where the shot stands still
     double bias = 0;
-    Image picture; ///< of the parts that are compared, last frame
+    double flicker = 0; ///< RMS of the second difference of luminance over frames, over its mean; 0 below 3 frames
+    Image picture;      ///< of the parts that are compared, last frame
 };
 
 class VariantMeasurer {

@@ -34,7 +34,44 @@ class StabilityCommand(ProgramTest):
         self.assertIn("failure", measured[1]["graphs"]["direct"])
         self.assertIn("| twice | worst difference | ≤ 0 % | 0 % ✓ | 0 % ✓ |", (suite / "stability.md").read_text())
 
+    def test_what_is_measured_is_kept(self):
+        arguments = ["stability", "--graphs", "direct", "--cases", self.case, "-o", "suite", "--resume"]
+        first = self.run_program(*arguments)
+        self.assertEqual(first.returncode, 0, first.stderr)
+        self.assertNotIn("measured before", first.stdout)
+        written = json.loads((self.out / "suite" / "stability.json").read_text())["cases"]
+        self.assertIn("twice, direct: 0 % ✓ (measured before)", self.run_program(*arguments).stdout)
+        again = json.loads((self.out / "suite" / "stability.json").read_text())["cases"]
+        self.assertEqual(written, again)
+        other = self.run_program(*arguments, "--set", "shadow_maps.resolution=64")
+        self.assertNotIn("measured before", other.stdout, "other settings are another cell")
+        self.case.write_text(CASE.replace("[1, 2]", "[1, 2, 3]"))
+        changed = self.run_program(*arguments)
+        self.assertNotIn("measured before", changed.stdout, "so is another ladder")
+
+    def test_settings_hold_for_the_cases(self):
+        lit = CASE.replace('"difference"', '"mean"').replace('"resource"', '"expected": "0.1", "resource"')
+        self.case.write_text(lit.replace('"most": 0', '"most": 100'))
+        own = self.run_program("stability", "--graphs", "direct", "--cases", self.case)
+        set_ = self.run_program("stability", "--graphs", "direct", "--cases", self.case, "--disable", "direct")
+        self.assertIn("twice, direct: -100 % ✓", set_.stdout, "nothing is lit where its pass is off")
+        self.assertNotIn("-100 %", own.stdout)
+        wrong = self.run_program("stability", "--graphs", "direct", "--cases", self.case, "--set", "direct.visiblity=none")
+        self.assertIn("not measured", wrong.stdout)
+        self.assertIn("visibility", wrong.stdout)
+
+    def test_flip_over_time(self):
+        moving = CASE.replace('"difference"', '"flip"').replace('"frames"', '"fps"').replace(
+            '"intensity"', '"path": [{"t": 0, "position": [-1, 1, 1]}, {"t": 0.1, "position": [1, 1, 1]}], "intensity"')
+        self.case.write_text(CASE.replace('"difference"', '"flip"'))
+        still = self.run_program("stability", "--graphs", "direct", "--cases", self.case)
+        self.assertIn("twice, direct: 0 ✓", still.stdout)
+        self.case.write_text(moving)
+        self.assertRegex(self.run_program("stability", "--graphs", "direct", "--cases", self.case).stdout,
+                         r"twice, direct: 0\.\d+ ✗")
+
     def test_bad_input(self):
+        self.assert_refused(self.run_program("stability", "--cases", self.case, "--resume"), "--resume", "folder")
         self.assert_refused(self.run_program("stability", "--cases", "sealed_rom"), "sealed_rom", "sealed_room")
         self.assert_refused(self.run_program("stability", "--graphs", "lrms", "--cases", self.case), "lrms", "lrsm")
         self.case.write_text(CASE.replace('"most"', '"mots"'))
