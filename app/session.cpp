@@ -6,6 +6,7 @@
 #include "core/log.h"
 #include "core/text.h"
 #include "gpu/device_memory.h"
+#include "reference/scene_needs.h"
 #include "scene/describe.h"
 #include "scene/pre_exposure.h"
 
@@ -35,6 +36,7 @@ Session::Session(SessionOptions options) : options_(std::move(options)), timer_m
     graph_ = make_graph(options_.graph);
     apply_options(graph_->model(), options_);
     load_scene_to_gpu();
+    resolve_auto(graph_->model());
     graph_->prepare(facts_, size_); // so that a bad graph is told at once
     log_omitted_light(options_.graph, graph_->model().file().transport, facts_);
 }
@@ -86,6 +88,8 @@ void Session::open_shot(const std::string& name) {
         load_scene_to_gpu();
         throw;
     }
+    needs_.reset();
+    resolve_auto(graph_->model());
     options_.shot = name;
     options_.material_model.reset();
     camera_.reset();
@@ -99,6 +103,7 @@ void Session::open_graph(const std::string& name) {
     options_.check_nan = graph_->check_nan; // as it is switched now
     std::unique_ptr<Graph> next = make_graph(name);
     next->model().adopt_values(graph_->model().values());
+    resolve_auto(next->model());
     next->prepare(facts_, size_);
     graph_ = std::move(next);
     options_.graph = name;
@@ -146,6 +151,7 @@ void Session::render(bool whole) {
         scene_dirty_ = false;
     }
     gpu_scene_->update(state_.scene, facts_.animated_lights);
+    if (graph_->model().has_auto(true)) resolve_auto(graph_->model()); // its file was read again
     graph_->prepare(facts_, size_);
 
     FrameConstants& c = constants_;
@@ -191,6 +197,16 @@ float Session::value_scale(const std::string& resource) const {
 
 void Session::set_parameter(const std::string& name, const std::string& text, ParameterOrigin origin) {
     graph_->model().set(name, text, origin);
+    if (graph_->model().has_auto(true)) resolve_auto(graph_->model());
+}
+
+const SceneNeeds& Session::needs() {
+    if (!needs_) needs_ = scene_needs(*shot_);
+    return *needs_;
+}
+
+void Session::resolve_auto(GraphModel& model) {
+    if (model.has_auto()) model.resolve_auto(needs());
 }
 
 std::vector<std::pair<std::string, std::string>> Session::changed_parameters(ParameterOrigin at_least) const {

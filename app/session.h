@@ -42,6 +42,8 @@ class Session {
     Shot& shot() { return *shot_; }
     const Shot& shot() const { return *shot_; }
     const SceneFacts& facts() const { return facts_; }
+    /// What the shot needs of methods, measured when it is first asked for (reference/scene_needs.h).
+    const SceneNeeds& needs();
     Graph& graph() { return *graph_; }
     const Graph& graph() const { return *graph_; }
     const GpuScene& gpu_scene() const { return *gpu_scene_; }
@@ -102,12 +104,15 @@ class Session {
 
   private:
     void load_scene_to_gpu();
+    /// Parameters that are set to "auto" take their values from the shot's needs.
+    void resolve_auto(GraphModel& model);
     /// The graph of that name with the session's settings, for values to be put into. Throws Error.
     std::unique_ptr<Graph> make_graph(const std::string& name) const;
 
     SessionOptions options_;
     std::unique_ptr<Shot> shot_;
     SceneFacts facts_;
+    std::optional<SceneNeeds> needs_;
     std::unique_ptr<GpuScene> gpu_scene_;
     std::unique_ptr<Graph> graph_;
     TimerMode timer_mode_;

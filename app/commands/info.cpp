@@ -2,6 +2,7 @@
 #include "app/commands/command.h"
 #include "app/omitted_light.h"
 #include "app/print.h"
+#include "reference/scene_needs.h"
 #include "scene/describe.h"
 #include "scene/shot.h"
 
@@ -17,6 +18,8 @@ void add_info_command(CLI::App& app, CommandFunction& chosen) {
         chosen = [file] {
             const Shot shot = load_shot(*file);
             print("{}{}", describe_scene(shot), describe_omitted_light(shot_facts(shot)));
+            for (const auto& [name, need] : scene_needs(shot))
+                print("{:<14}{} {:.6g}: {}\n", "auto", name, need.value, need.reason);
             return 0;
         };
     });

@@ -15,7 +15,7 @@
 namespace bounce {
 
 ParameterText text_of(const std::string& id, const Parameter& parameter) {
-    return {id + "." + parameter.info.name, to_text(parameter.info, parameter.value), parameter.origin};
+    return {id + "." + parameter.info.name, parameter.text(), parameter.origin};
 }
 
 ParameterText home_of(const GraphModel& model, const std::string& id, const Parameter& parameter) {
@@ -32,7 +32,8 @@ ParameterText home_of(const GraphModel& model, const std::string& id, const Para
                             [&](const std::string& name) { return model.number(name); });
             if (info.kind == ParameterKind::boolean) json = json.get<double>() != 0;
         }
-        home.text = to_text(info, parse_value(info, json));
+        const bool automatic = json.is_string() && json.get<std::string>() == k_auto && !info.automatic.empty();
+        home.text = automatic ? k_auto : to_text(info, parse_value(info, json));
         home.origin = ParameterOrigin::graph;
     } catch (const std::exception&) {
         // The shader's range has changed since the file was read: the default stands.

@@ -49,7 +49,8 @@ std::string help_text(const std::string& name, const std::string& type, const Pa
     std::string range = range_text(info);
     if (!range.empty()) text += "\nrange " + range + (info.unit.empty() ? "" : " " + info.unit);
     text += "\ndefault " + to_text(info, info.default_value);
-    text += fmt::format("\nnow {}: {}", to_text(info, p.value), whose(p.origin));
+    text += fmt::format("\nnow {}{}: {}", p.is_auto ? "auto, " : "", to_text(info, p.value), whose(p.origin));
+    if (p.is_auto && !p.reason.empty()) text += "\nbecause " + p.reason;
     if (info.is_static) text += "\ncompiled in: a change compiles the shader again, when you let go";
     if (!info.is_static && !info.in_shader) text += "\nit shapes what the pass makes: it changes when you let go";
     text += "\ndeclared in " + (!info.where.empty()          ? info.where
@@ -81,8 +82,14 @@ void draw_menu(PanelContext& context, const std::string& name, const Parameter& 
             fmt::format("Reset to {}: {}###reset", preset ? "the preset" : "the default", home.text).c_str()))
         reset_parameters(context, {name});
     note_widget(name + ".reset");
+    if (!parameter.info.automatic.empty() && ImGui::MenuItem("By what the scene needs (auto)", "", parameter.is_auto)) {
+        const ParameterText before = text_of(name.substr(0, name.find('.')), parameter);
+        const ParameterText after{name, k_auto, ParameterOrigin::panel};
+        if (apply(context.session, context.ui, {after})) push_undo(context, name, {before}, {after});
+    }
+    note_widget(name + ".auto");
     if (ImGui::MenuItem("Copy as --set")) {
-        std::string option = "--set " + name + "=" + to_text(parameter.info, parameter.value);
+        std::string option = "--set " + name + "=" + parameter.text();
         ImGui::SetClipboardText(option.c_str());
         context.ui.say("copied: " + option);
     }

@@ -24,7 +24,7 @@ layout(FORMAT_dvs_sky) writeonly uniform image2D dvs_sky; // the environment's E
 #endif
 
 uniform int cone_set = 0;       //! {six, six_tilted, spiral} six as published
-uniform int spiral_cones = 32;  //! [4, 128] cones of the set spiral
+uniform int spiral_cones = 32;  //! [4, 128] auto(cones) cones of the set spiral
 uniform bool dithered_start = false; //! shifts the first step differently in blocks of 4 × 4: noise instead of bands
 uniform int hit_lookup = 0;     //! static {voxels, map} light at the hit: from the voxel, or from a walk over the reflective shadow maps
 uniform float aperture = 60.0;  //! [1, 90] (degrees) of each cone, from side to side

@@ -18,7 +18,7 @@ bool enters_voxels() {
 #include "surface/sample_pattern.glsl"
 
 uniform int cone_set = 0;       //! {six, six_tilted, spiral} six as published
-uniform int spiral_cones = 32;  //! [4, 128] cones of the set spiral
+uniform int spiral_cones = 32;  //! [4, 128] auto(cones) cones of the set spiral
 uniform float aperture = 60.0;  //! [1, 90] (degrees) of each cone, from side to side
 
 struct GatherPoint {

@@ -113,6 +113,13 @@ bool parse_parameter_line(std::string_view code, std::string_view mark, Paramete
     } else if (info.kind == ParameterKind::vec3) {
         info.kind = ParameterKind::colour;
     }
+    // What "auto" follows may stand behind the range: "[4, 256] auto(cones) cones of the set".
+    if (rest.starts_with("auto(")) {
+        const size_t close = rest.find(')');
+        info.automatic = close == std::string_view::npos ? "" : std::string(trim(rest.substr(5, close - 5)));
+        if (info.automatic.empty()) throw Error("what 'auto' of '" + info.name + "' follows is written auto(need)");
+        rest = trim(rest.substr(close + 1));
+    }
     // A unit may stand in parentheses before the help: "[0, 4] (voxels) start offset".
     if (rest.starts_with("(")) {
         size_t close = rest.find(')');

@@ -81,13 +81,18 @@ std::string range_text(const ParameterInfo& info) {
     return fmt::format("[{}, {}]", float(info.min), float(info.max));
 }
 
+std::string Parameter::text() const {
+    return is_auto ? k_auto : to_text(info, value);
+}
+
 static std::string expectation(const ParameterInfo& info) {
     static const char* const names[] = {
         "true or false",         "a whole number",         "one of",          "a number", "two numbers (x,y)",
         "three numbers (x,y,z)", "four numbers (x,y,z,w)", "a colour (r,g,b)"};
     std::string range = range_text(info);
-    if (!info.choices.empty()) return "one of " + range;
-    return std::string(names[int(info.kind)]) + (range.empty() ? "" : " " + range);
+    const std::string by_need = info.automatic.empty() ? "" : ", or auto";
+    if (!info.choices.empty()) return "one of " + range + by_need;
+    return std::string(names[int(info.kind)]) + (range.empty() ? "" : " " + range) + by_need;
 }
 
 [[noreturn]] static void fail(const ParameterInfo& info, std::string_view got) {
@@ -108,6 +113,18 @@ static bool is_step(const ParameterInfo& info, double number) {
         double step = 0;
         return parse_number(choice, step) && float(step) == float(number);
     });
+}
+
+ParameterValue value_for(const ParameterInfo& info, double need) {
+    double number = std::clamp(need, info.min, info.max);
+    if (info.kind == ParameterKind::integer) number = std::round(number);
+    if (info.kind == ParameterKind::enumeration || info.choices.empty()) return from_components(info.kind, {number});
+    for (const std::string& choice : info.choices) { // rising
+        double step = 0;
+        if (parse_number(choice, step) && (step >= number * (1 - 1e-9) || &choice == &info.choices.back()))
+            return from_components(info.kind, {step});
+    }
+    return info.default_value;
 }
 
 void check_range(const ParameterInfo& info, const ParameterValue& value) {
@@ -220,14 +237,17 @@ void ParameterSet::declare_shader_parameter(const ParameterInfo& info) {
     bool same_kind = old->info.kind == info.kind;
     ParameterValue value = old->value;
     ParameterOrigin origin = old->origin;
+    const bool still_auto = old->is_auto && old->info.automatic == info.automatic;
     old->info = info;
     old->value = info.default_value;
     old->origin = ParameterOrigin::default_value;
+    old->is_auto = false;
     if (!same_kind || origin == ParameterOrigin::default_value) return;
     try {
         check_range(info, value);
         old->value = value;
         old->origin = origin;
+        old->is_auto = still_auto;
     } catch (const Error&) {
         // The new range excludes the old value: the default stands.
     }
@@ -263,15 +283,39 @@ void ParameterSet::set(std::string_view name, const ParameterValue& value, Param
     check_range(parameter.info, value);
     parameter.value = value;
     parameter.origin = origin;
+    parameter.is_auto = false;
+    parameter.reason.clear();
     if (parameter.write_through) parameter.write_through(value);
 }
 
 void ParameterSet::set_text(std::string_view name, std::string_view text, ParameterOrigin origin) {
-    set(name, parse_value(require(*this, name).info, text), origin);
+    Parameter& parameter = require(*this, name);
+    if (trim(text) != k_auto || parameter.info.automatic.empty()) {
+        set(name, parse_value(parameter.info, text), origin);
+        return;
+    }
+    parameter.origin = origin;
+    parameter.is_auto = true;
 }
 
 void ParameterSet::set_json(std::string_view name, const nlohmann::json& json, ParameterOrigin origin) {
+    if (json.is_string()) {
+        set_text(name, json.get_ref<const std::string&>(), origin);
+        return;
+    }
     set(name, parse_value(require(*this, name).info, json), origin);
+}
+
+void ParameterSet::follow_need(std::string_view name, const std::string& need) {
+    require(*this, name).info.automatic = need;
+}
+
+void ParameterSet::resolve(std::string_view name, double need, const std::string& reason) {
+    Parameter& parameter = require(*this, name);
+    const ParameterOrigin origin = parameter.origin;
+    set(name, value_for(parameter.info, need), origin);
+    parameter.is_auto = true;
+    parameter.reason = reason;
 }
 
 void ParameterSet::reset(std::string_view name) {

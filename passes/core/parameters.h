@@ -34,8 +34,12 @@ struct ParameterInfo {
     std::string help;
     bool is_static = false; ///< becomes a #define of the shader: a change compiles it again
     bool in_shader = false;
-    std::string where; ///< "glsl/x.comp:12" for shader parameters
+    std::string where;     ///< "glsl/x.comp:12" for shader parameters
+    std::string automatic; ///< the need of the scene that the value "auto" follows (scene/needs.h); "": takes no "auto"
 };
+
+/// The text that stands for a value by the scene's needs.
+inline constexpr const char* k_auto = "auto";
 
 /// The value as --set takes it and as graph files may hold it ("0.5", "1,0,0", "true", an enumeration's name).
 std::string to_text(const ParameterInfo& info, const ParameterValue& value);
@@ -45,6 +49,9 @@ nlohmann::json to_json(const ParameterInfo& info, const ParameterValue& value);
 ParameterValue parse_value(const ParameterInfo& info, std::string_view text);
 ParameterValue parse_value(const ParameterInfo& info, const nlohmann::json& json);
 void check_range(const ParameterInfo& info, const ParameterValue& value);
+/// The value of the parameter that comes nearest to a need: inside its range, and the first of its steps that is not
+/// below.
+ParameterValue value_for(const ParameterInfo& info, double need);
 /// "[0.1, 2]", "{hard, soft}" or "".
 std::string range_text(const ParameterInfo& info);
 
@@ -53,6 +60,11 @@ struct Parameter {
     ParameterValue value;
     ParameterOrigin origin = ParameterOrigin::default_value;
     std::function<void(const ParameterValue&)> write_through; ///< sets the bound C++ member; may be empty
+    bool is_auto = false; ///< `value` follows a need of the scene, or will once a scene is there
+    std::string reason{}; ///< why it has that value; "" until a scene is there
+
+    /// What --set takes to make it as it is: the value, or "auto".
+    std::string text() const;
 };
 
 struct Range {
@@ -87,6 +99,8 @@ class ParameterSet {
         insert({info, info.default_value, ParameterOrigin::default_value,
                 [&member](const ParameterValue& v) { member = static_cast<T>(std::get<int>(v)); }});
     }
+    /// The parameter takes "auto", which follows this need of the scene.
+    void follow_need(std::string_view name, const std::string& need);
     /// A shader parameter (//! line). Replaces one of the same name, keeping its value when the kind is the same, the
     /// value still lies in range and somebody set it.
     void declare_shader_parameter(const ParameterInfo& info);
@@ -100,6 +114,8 @@ class ParameterSet {
     void set_text(std::string_view name, std::string_view text, ParameterOrigin origin);
     void set_json(std::string_view name, const nlohmann::json& json, ParameterOrigin origin);
     void reset(std::string_view name);
+    /// "auto" takes this value from now on; the parameter must have been set to "auto".
+    void resolve(std::string_view name, double need, const std::string& reason);
 
     std::vector<Parameter>& all() { return parameters_; }
     const std::vector<Parameter>& all() const { return parameters_; }
@@ -139,6 +155,7 @@ class ParameterSet {
 ///   uniform float step_scale = 0.5;  //! [0.1, 2] step length as a share of the cone's diameter
 ///   uniform int occlusion = 0;       //! {shadow_map, ray_hard, ray_soft} how the light is blocked
 ///   uniform int cones = 6;           //! static [1, 32] diffuse cones
+///   uniform int rays = 16;           //! [1, 64] auto(cones) rays; "auto" takes what the scene needs
 bool parse_parameter_line(std::string_view line, ParameterInfo& info);
 
 } // namespace bounce

@@ -18,6 +18,7 @@ class VoxelizationPass : public Pass {
         ParameterSet& p = description.parameters;
         p.add("resolution", resolution_, {8, 512}, "voxels", "along each side of the grid; a power of two");
         choose_powers_of_two(p, "resolution");
+        p.follow_need("resolution", "voxels");
         p.add_choice("route", route_, {"raster", "compute"},
                      "raster: conservative, as published; compute: every voxel that is overlapped");
         // average: packed running means by compare-and-swap, as published. last_writer: one triangle's surface. sum:

@@ -93,6 +93,7 @@ ParameterInfo read_parameter(const std::string& name, const json& value, const s
     info.name = name;
     info.unit = reader.text("unit");
     info.help = reader.text("help");
+    info.automatic = reader.text("auto");
     const json* range = reader.get("range");
     const json* choices = reader.get("choices");
     const json* fallback = reader.get("default");

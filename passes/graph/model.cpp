@@ -289,6 +289,13 @@ const Parameter* GraphModel::parameter_of(const PassNode& node, const std::strin
 void GraphModel::set(const std::string& name, const std::string& text, ParameterOrigin origin) {
     parameter(name); // reports an unknown name with the nearest of the whole graph
     auto [id, own] = split_name(name);
+    (id == "graph" ? graph_parameters_ : find_node(id)->parameters).set_text(own, text, origin);
+    follow_change(name);
+}
+
+/// What must follow a parameter whose value has changed.
+void GraphModel::follow_change(const std::string& name) {
+    auto [id, own] = split_name(name);
     changes_.insert(name);
     auto scan_again = [&](const PassNode& changed) { // other slots may be there now
         for (const auto& node : nodes_)
@@ -296,12 +303,10 @@ void GraphModel::set(const std::string& name, const std::string& text, Parameter
     };
     if (id != "graph") {
         PassNode& owner = *find_node(id);
-        owner.parameters.set_text(own, text, origin);
         if (!owner.parameters.find(own)->info.in_shader) owner.pass->reset_capacity();
         if (owner.parameters.find(own)->info.is_static) scan_again(owner);
         return;
     }
-    graph_parameters_.set_text(own, text, origin);
     // Values that the file derives from the graph's parameters follow, unless a person has set them.
     for (const auto& node : nodes_) {
         for (const auto& [derived, json] : node->entry.params_json) {
@@ -314,6 +319,32 @@ void GraphModel::set(const std::string& name, const std::string& text, Parameter
             if (target->info.is_static) scan_again(*node);
         }
     }
+}
+
+bool GraphModel::has_auto(bool open) const {
+    const auto any = [open](const ParameterSet& set) {
+        return std::any_of(set.all().begin(), set.all().end(),
+                           [open](const Parameter& p) { return p.is_auto && !(open && !p.reason.empty()); });
+    };
+    return any(graph_parameters_) ||
+           std::any_of(nodes_.begin(), nodes_.end(), [&](auto& n) { return any(n->parameters); });
+}
+
+void GraphModel::resolve_auto(const SceneNeeds& needs) {
+    const auto resolve = [&](const std::string& id, ParameterSet& set) {
+        for (const std::string& name : set.names()) {
+            const Parameter* p = set.find(name);
+            if (!p || !p->is_auto) continue; // scanning again may have dropped it
+            const auto need = needs.find(p->info.automatic);
+            if (need == needs.end()) continue;
+            const ParameterValue before = p->value;
+            set.resolve(name, need->second.value, need->second.reason);
+            if (set.find(name)->value != before) follow_change(id + "." + name);
+        }
+    };
+    resolve("graph", graph_parameters_);
+    for (const auto& node : nodes_)
+        resolve(node->id(), node->parameters);
 }
 
 std::vector<std::string> GraphModel::parameter_names() const {

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "graph/plan.h"
+#include "scene/needs.h"
 
 #include <memory>
 #include <set>
@@ -63,6 +64,10 @@ class GraphModel {
 
     /// "id.parameter" (graph.parameter for the graph's own) from text. Throws Error naming the nearest.
     void set(const std::string& name, const std::string& text, ParameterOrigin origin);
+    /// Whether any parameter is set to "auto"; with `open`, whether one still waits for the scene's needs.
+    bool has_auto(bool open = false) const;
+    /// What is set to "auto" takes its values from these needs, with their reasons.
+    void resolve_auto(const SceneNeeds& needs);
     Parameter& parameter(const std::string& name);
     const Parameter& parameter(const std::string& name) const;
     /// The same; null when there is none.
@@ -113,6 +118,7 @@ class GraphModel {
 
   private:
     void apply_file_values(PassNode& node, ErrorList& errors);
+    void follow_change(const std::string& name);
     void scan_by_values(PassNode& node);
     const Parameter* find_number(const std::string& name) const;
     void note_number(const std::string& name) const;

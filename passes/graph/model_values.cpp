@@ -32,8 +32,7 @@ GraphValues GraphModel::values() const {
     auto add = [&](const std::string& id, const std::string& owner, const ParameterSet& set) {
         for (const Parameter& p : set.all()) {
             if (p.origin < ParameterOrigin::command_line) continue;
-            values.parameters.push_back(
-                {id + "." + p.info.name, owner, p.info.kind, to_text(p.info, p.value), p.origin});
+            values.parameters.push_back({id + "." + p.info.name, owner, p.info.kind, p.text(), p.origin});
         }
     };
     add("graph", "graph", graph_parameters_);

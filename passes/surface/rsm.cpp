@@ -11,6 +11,7 @@ class RsmPass : public Pass {
         description.constant("view_index");
         description.constant("light_index");
         description.parameters.add("resolution", resolution_, {16, 8192}, "texels", "width and height of each map");
+        description.parameters.follow_need("resolution", "map_texels");
     }
 
     std::string skip_reason(const SceneFacts& facts) const override {

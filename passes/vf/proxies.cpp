@@ -25,6 +25,8 @@ class VfProxiesPass : public Pass {
         ParameterSet& p = description.parameters;
         p.add("proxies", proxies_, {1, 4194304}, "", "point proxies over the whole scene, in the mean");
         p.add("cells", cells_, {1, 128}, "", "along each side of the box that holds the scene");
+        p.follow_need("proxies", "proxies");
+        p.follow_need("cells", "cells");
         p.add("overlap", overlap_, "discs are found in every cell that they reach into; off: in their centre's");
     }
 

@@ -18,6 +18,7 @@ class OcclusionVoxelsPass : public Pass {
         ParameterSet& p = description.parameters;
         p.add("resolution", resolution_, {8, 512}, "voxels", "along each side of the grid; a power of two");
         choose_powers_of_two(p, "resolution");
+        p.follow_need("resolution", "occlusion_voxels");
         p.add_choice("route", route_, {"raster", "compute"},
                      "raster: dominant axis, as published; compute: every voxel that is overlapped");
         p.add_choice("storage", storage_, {"bytes", "bits"},

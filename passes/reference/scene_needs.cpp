@@ -1,0 +1,65 @@
+#include "reference/scene_needs.h"
+
+#include "scene/extent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace bounce {
+
+namespace {
+
+// From a sweep over six shots (bounce table auto_values). Fewer than 128 voxels would be enough for small rooms, where
+// they cost little.
+constexpr double k_voxels_across = 10, k_least_voxels = 128, k_most_voxels = 256;
+// What occludes is held by planes in voxels: half as many are as good.
+constexpr double k_occluders_across = 5, k_least_occluders = 64, k_most_occluders = 128;
+constexpr double k_texels_across = 64, k_least_texels = 256, k_most_texels = 1024;
+constexpr double k_cones_by_variance = 6.5, k_least_cones = 16, k_most_cones = 48;
+constexpr double k_proxies_across = 95, k_least_proxies = 24000, k_most_proxies = 200000;
+constexpr double k_cells_across = 1.5, k_least_cells = 4, k_most_cells = 32;
+
+std::string limited(double wanted, double least, double most) {
+    if (wanted < least) return fmt::format(", but no fewer than {:g}", least);
+    return wanted > most ? fmt::format(", but no more than {:g}", most) : "";
+}
+
+/// `wanted` within its limits, with what it follows from and which limit it met.
+Need need(double wanted, double least, double most, const std::string& why) {
+    return {std::clamp(wanted, least, most), why + limited(wanted, least, most)};
+}
+
+double power_of_two(double number) {
+    return std::exp2(std::ceil(std::log2(std::max(number, 1.0)) - 1e-9));
+}
+
+} // namespace
+
+SceneNeeds needs_of(const FeatureSizes& f, float extent) {
+    SceneNeeds needs;
+    const double gap = f.gap_10 > 0 ? f.gap_10 : extent, gaps = extent > 0 ? extent / gap : 1;
+    const std::string around = fmt::format("a tenth of what is seen has surfaces within {:.3g} m around it", gap);
+    needs["voxels"] = need(power_of_two(k_voxels_across * gaps), k_least_voxels, k_most_voxels,
+                           fmt::format("{}: {:g} voxels across", around, k_voxels_across));
+    needs["occlusion_voxels"] = need(power_of_two(k_occluders_across * gaps), k_least_occluders, k_most_occluders,
+                                     fmt::format("{}: {:g} voxels across", around, k_occluders_across));
+    needs["map_texels"] = need(power_of_two(k_texels_across * gaps), k_least_texels, k_most_texels,
+                               fmt::format("{}: {:g} texels across", around, k_texels_across));
+    needs["proxies"] = need(k_proxies_across * f.area / (gap * gap), k_least_proxies, k_most_proxies,
+                            fmt::format("{}, and all surfaces are {:.3g} m²: {:g} proxies in a square of that size",
+                                        around, f.area, k_proxies_across));
+    needs["cells"] = need(std::ceil(k_cells_across * gaps), k_least_cells, k_most_cells,
+                          fmt::format("{}: {:g} cells across", around, k_cells_across));
+    needs["cones"] = need(std::round(k_cones_by_variance * f.ray_variance), k_least_cones, k_most_cones,
+                          fmt::format("what one ray brings varies by {:.2g} times its mean, {:.2g} % of the directions "
+                                      "meet lit surfaces",
+                                      std::sqrt(f.ray_variance), 100 * f.lit_share));
+    return needs;
+}
+
+SceneNeeds scene_needs(const Shot& shot) {
+    return needs_of(measure_features(shot), longest_edge(shot_facts(shot).bounds_over_animation));
+}
+
+} // namespace bounce
