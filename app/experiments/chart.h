@@ -23,7 +23,8 @@ struct ChartPlan {
 void run_chart(const ChartPlan& plan, const std::function<void(const std::string&)>& say);
 
 /// Copies the points of other folders into `folder` and writes the report over all of them that one program measured;
-/// `say` is told which are left out, and why. Throws Error.
+/// `say` is told which are left out, and why. Throws Error, at the end also for shards that died: it names each, and
+/// what measures the rest.
 void merge_charts(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& folder,
                   const ChartView& view, const std::function<void(const std::string&)>& say);
 
