@@ -103,11 +103,12 @@ void run_chart(const ChartPlan& plan, const std::function<void(const std::string
     std::vector<ChartPoint> points = load_points(plan.folder);
     std::erase_if(points, [&](const ChartPoint& point) { return !wanted.contains(point.key); });
     if (!points.empty()) write_report(points, plan.folder, plan.view);
+    if (!points.empty() && plan.also_write) plan.also_write(points);
     errors.throw_if_any("chart");
 }
 
 void merge_charts(const std::vector<fs::path>& folders, const fs::path& folder, const ChartView& view,
-                  const std::function<void(const std::string&)>& say) {
+                  const std::function<void(const std::string&)>& say, const AlsoWrite& also_write) {
     std::vector<ChartPoint> points;
     std::vector<ShardRecord> shards;
     for (const fs::path& from : folders) {
@@ -130,6 +131,7 @@ void merge_charts(const std::vector<fs::path>& folders, const fs::path& folder, 
         write_file_atomically(point_path(folder, point.key), point_to_json(point));
     sort_points(points);
     write_report(points, folder, view);
+    if (also_write) also_write(points);
     ErrorList missing;
     for (const std::string& line : dead_shards(shards, points))
         missing.add(line);
