@@ -37,9 +37,14 @@ void write_shard_record(const ShardRecord& record, const fs::path& folder) {
     fs::create_directories(folder / "shards", error);
     if (error)
         throw Error(fmt::format("cannot create the folder '{}': {}", (folder / "shards").string(), error.message()));
-    const ordered_json json = {{"shard", record.shard}, {"shards", record.shards}, {"plan", record.plan},
-                               {"ended", record.ended}, {"failed", record.failed}, {"points", record.labels},
-                               {"tasks", record.names}};
+    ordered_json json;
+    json["shard"] = record.shard;
+    json["shards"] = record.shards;
+    json["plan"] = record.plan;
+    json["ended"] = record.ended;
+    json["failed"] = record.failed;
+    json["points"] = record.labels;
+    json["tasks"] = record.names;
     write_file_atomically(folder / "shards" / fmt::format("{}-of-{}.json", record.shard, record.shards),
                           json_dump(json, 1) + "\n");
 }

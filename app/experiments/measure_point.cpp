@@ -91,7 +91,10 @@ void compare_with_reference(Session& session, ChartPoint& point, const std::func
     if (task.bounces) settings.bounces = *task.bounces;
     if (task.diffuse_only) settings.diffuse_only = *task.diffuse_only;
     if (occlusion) settings.bounces = 0; // it has none
-    LayeredImage same = reference_for(task, shot, settings, occlusion ? point.parts.front() : "out.radiance", say);
+    // The goal of noise is the picture's as a whole; of a thorough task what is compared, which may be a small share of
+    // it, and so far noisier.
+    const bool of_part = occlusion || (task.thorough && point.parts.size() == 1);
+    LayeredImage same = reference_for(task, shot, settings, of_part ? point.parts.front() : "out.radiance", say);
     ComparisonOptions options;
     options.parts = {join(point.parts, "+")};
     options.absent_is_black = true;

@@ -26,8 +26,9 @@ std::vector<MethodScore> scores_of(const std::vector<const ChartPoint*>& points,
 }
 
 std::vector<MethodScore> front_of(std::vector<MethodScore> scores) {
-    std::stable_sort(scores.begin(), scores.end(),
-                     [](auto& a, auto& b) { return std::tie(a.ms, a.error) < std::tie(b.ms, b.error); });
+    std::sort(scores.begin(), scores.end(), [](auto& a, auto& b) {
+        return std::tie(a.ms, a.error, graph_of(a), a.point->key) < std::tie(b.ms, b.error, graph_of(b), b.point->key);
+    });
     std::vector<MethodScore> front;
     for (const MethodScore& score : scores)
         if (front.empty() || score.error < front.back().error) front.push_back(score);

@@ -10,52 +10,35 @@
 #include "core/paths.h"
 
 #include <algorithm>
-#include <cmath>
+#include <fmt/format.h>
 
 namespace bounce {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-static ordered_json number_json(double value) {
-    return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
-
-static ordered_json metrics_of_page() {
-    ordered_json list = ordered_json::array();
+/// Names and titles of ours hold nothing that JSON escapes.
+static std::string metrics_of_page() {
+    std::string list;
     for (const Metric* metric : brief_metrics())
-        list.push_back({{"name", metric->name},
-                        {"title", metric->title},
-                        {"share", metric->unit == MetricUnit::share},
-                        {"ideal", metric->ideal},
-                        {"absolute", metric->absolute}});
+        list += fmt::format("{}{{\"name\":\"{}\",\"title\":\"{}\",\"share\":{},\"ideal\":{},\"absolute\":\"{}\"}}",
+                            list.empty() ? "" : ",", metric->name, metric->title, metric->unit == MetricUnit::share,
+                            metric->ideal, metric->absolute);
     return list;
 }
 
-static ordered_json point_of_page(const MethodSuite& suite, const ChartPoint& point) {
-    ordered_json json = {{"shot", point.task.session.shot},
-                         {"graph", point.task.session.graph},
-                         {"kind", suite.kind_of(point.task.session.graph)},
-                         {"occlusion", point.absolute()},
-                         {"ms", point.total_ms},
-                         {"mib", double(point.bytes) / 1048576},
-                         {"command", point.task.command()}};
-    json["set"] = ordered_json::object();
-    for (const auto& [name, value] : point.task.session.sets)
-        json["set"][name] = value;
-    json["figures"] = figures_json(point.figures.value_or(MethodFigures()));
-    for (const auto& [key, values] : {std::pair("same", &point.same_transport), std::pair("full", &point.full)})
-        for (const Metric& metric : metrics())
-            json[key][metric.name] = number_json((*values)[metric.name]);
-    json["picture"] = point.thumbnail_png;
-    json["error"] = point.error_png;
-    return json;
+static std::string figures_of_page() {
+    std::string list;
+    for (const FigureColumn& column : figure_columns())
+        list += fmt::format("{}{{\"name\":\"{}\",\"title\":\"{}\",\"unit\":\"{}\"}}", list.empty() ? "" : ",",
+                            column.name, column.title, column.unit);
+    return list;
 }
 
 /// As text of a page's data block: no end of the block can be in it.
-static std::string as_data_block(const ordered_json& json) {
+static std::string as_data_block(const std::string& json) {
     std::string out;
-    for (char c : json_dump(json)) {
+    for (char c : json) {
         if (c == '<')
             out += "\\u003c";
         else
@@ -65,21 +48,19 @@ static std::string as_data_block(const ordered_json& json) {
 }
 
 std::string methods_page(const MethodSuite& suite, const std::vector<ChartPoint>& points, const std::string& head) {
-    ordered_json data = {{"head", head}, {"metric", suite.metric}, {"metrics", metrics_of_page()}};
-    data["figures"] = ordered_json::array();
-    for (const FigureColumn& column : figure_columns())
-        data["figures"].push_back({{"name", column.name}, {"title", column.title}, {"unit", column.unit}});
-    data["groups"] = ordered_json::array();
-    data["points"] = ordered_json::array();
-    data["references"] = ordered_json::object();
-    for (const MethodGroup& group : suite.groups) {
-        data["groups"].push_back({{"name", group.name}, {"title", group.title}});
-        for (const MethodScene& scene : suite.scenes) {
+    std::string data = "{\"head\":" + json_dump(ordered_json(head)) + ",\"suite\":" + suite.json + ",\"metrics\":[" +
+                       metrics_of_page() + "],\"figures\":[" + figures_of_page() + "],\"points\":[";
+    for (const MethodScene& scene : suite.scenes) {
+        for (const MethodGroup& group : suite.groups) {
+            bool first = true;
             for (const ChartPoint* point : points_of(points, scene, group)) {
-                ordered_json json = point_of_page(suite, *point);
-                json["group"] = group.name;
-                data["references"][scene.shot + " " + group.name] = point->reference_png;
-                data["points"].push_back(std::move(json));
+                ChartPoint told = *point;
+                told.passes.clear();
+                told.skipped.clear();
+                if (!first) told.reference_png.clear(); // all of a group are held to one
+                first = false;
+                if (data.back() != '[') data += ',';
+                data += point_to_json(told);
             }
         }
     }
@@ -88,7 +69,7 @@ std::string methods_page(const MethodSuite& suite, const std::vector<ChartPoint>
     const std::string place = "/*POINTS*/null";
     const size_t at = page.find(place);
     if (at == std::string::npos) throw Error(path.string() + ": expected the text " + place + ", where the points go");
-    return page.replace(at, place.size(), as_data_block(data));
+    return page.replace(at, place.size(), as_data_block(data + "]}"));
 }
 
 static void make_folder(const fs::path& folder) {

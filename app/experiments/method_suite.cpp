@@ -235,6 +235,7 @@ MethodSuite load_method_suite(const std::string& name) {
     ErrorList errors;
     Members members(json, "the chart", errors);
     MethodSuite suite;
+    suite.json = json_dump(json);
     suite.about = members.text("about", false);
     if (const std::string metric = members.text("metric", false); !metric.empty())
         suite.metric = find_metric(metric).name;

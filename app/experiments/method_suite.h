@@ -7,6 +7,7 @@
 //     "groups": [{"name": "one_bounce", "title": "one bounce of diffuse light", "compare": ["out.indirect_diffuse"],
 //                 "bounces": 1, "diffuse_only": true, "scenes": ["cornell"],
 //                 "methods": [{"graph": "lrsm", "kind": "published", "ladder": [{"gather.spiral_cones": 8}, {}]}]}] }
+// noise: of the reference, in what is compared.
 // quick_rungs: how many of each ladder's first settings a quick chart takes (0: it leaves the scene out). A group
 // without "scenes" is measured on all. "seen": what the eye finds in the gallery's pictures.
 
@@ -46,6 +47,7 @@ struct MethodGroup {
 
 struct MethodSuite {
     std::string about, metric = k_default_error;
+    std::string json = "{}"; ///< the whole file's, without comments
     int warm_up = 1, frames = 2;
     double noise = 0.03, quick_noise = 0.05;
     std::vector<MethodScene> scenes;

@@ -20,9 +20,14 @@ std::string ms_text(double ms) {
     return ms < 10 ? fmt::format("{:.1f} ms", ms) : fmt::format("{:.0f} ms", ms);
 }
 
-/// "3.2 times", "as long"
+/// "3.2", "380".
+std::string factor_text(double factor) {
+    return factor < 9.95 ? fmt::format("{:.2g}", factor) : fmt::format("{:.0f}", factor);
+}
+
+/// "3.2 times the", "the same": time.
 std::string times_text(double factor) {
-    return factor < 1.05 && factor > 0.95 ? "the same" : fmt::format("{:.2g} times the", factor);
+    return factor < 1.05 && factor > 0.95 ? "the same" : factor_text(factor) + " times the";
 }
 
 std::string settings_of(const ChartPoint& point) {
@@ -72,13 +77,16 @@ std::string tuning_sentence(const std::vector<MethodScore>& scores) {
 std::string beaten_sentence(const std::vector<MethodScore>& scores, const ErrorText& error) {
     const std::vector<BeatenMethod> beaten = beaten_everywhere(scores);
     if (beaten.empty()) return " Nobody is beaten everywhere.";
-    std::vector<std::string> told;
+    std::map<std::pair<double, std::string>, std::vector<std::string>> told; // by who beats them, the fastest first
     for (const BeatenMethod& entry : beaten)
-        told.push_back(fmt::format("{} by `{}` ({} times as fast, {})", named(entry.best, false, error(entry.best)),
-                                   entry.by.point->task.session.graph,
-                                   fmt::format("{:.2g}", entry.best.ms / entry.by.ms), error(entry.by)));
-    return " Beaten everywhere, at their best and by the fastest that is at least as accurate: " + join(told, ", ") +
-           ".";
+        told[{entry.by.ms, named(entry.by, false, error(entry.by))}].push_back(
+            fmt::format("`{}` ({} time, {})", entry.best.point->task.session.graph,
+                        times_text(entry.best.ms / entry.by.ms), error(entry.best)));
+    std::vector<std::string> lists;
+    for (const auto& [by, names] : told)
+        lists.push_back("by " + by.second + " " + join(names, ", "));
+    return " Beaten everywhere, each at its best and by the fastest that is at least as accurate: " +
+           join(lists, "; ") + ".";
 }
 
 /// The graphs with the least and the most of a figure: by each graph's value that is nearest to its best.
@@ -116,7 +124,7 @@ std::string other_sentences(const MethodScene& scene, const Points& points) {
         if (!sentence.empty()) told.push_back(what + ": " + sentence + ".");
     };
     const auto mib = [](double bytes) { return fmt::format("{:.1f} MiB", bytes / 1048576); };
-    const auto times = [](double factor) { return fmt::format("{:.2g} times", factor); };
+    const auto times = [](double factor) { return factor_text(factor) + " times"; };
     add("Memory", extremes(
                       points, [](auto& p) { return double(p.bytes); }, mib, "the least has", "the most"));
     add("A first frame against a later one",
@@ -166,14 +174,26 @@ std::string error_text(const ChartPoint& point, const Metric& metric) {
 }
 
 std::string group_text(const MethodSuite&, const MethodGroup& group, const Points& points, const Metric& metric) {
-    const auto scores = scores_of(points, [&](const ChartPoint& p) { return std::optional(p.error(metric)); });
-    if (scores.empty()) return "";
-    std::set<std::string> graphs;
-    for (const MethodScore& score : scores)
-        graphs.insert(score.point->task.session.graph);
+    Points lit;
+    std::set<std::string> graphs, black;
+    for (const ChartPoint* point : points) {
+        graphs.insert(point->task.session.graph);
+        if (point->same_transport.find("mean") == 0.0)
+            black.insert(point->task.session.graph);
+        else
+            lit.push_back(point);
+    }
+    if (graphs.empty()) return "";
+    const auto scores = scores_of(lit, [&](const ChartPoint& p) { return std::optional(p.error(metric)); });
     const ErrorText error = [&](const MethodScore& score) { return error_text(*score.point, metric); };
-    return fmt::format("**{}** ({} points of {} graphs). ", markdown_cell(group.title), scores.size(), graphs.size()) +
-           front_sentences(scores, error) + tuning_sentence(scores) + beaten_sentence(scores, error) + "\n\n";
+    std::string out =
+        fmt::format("**{}** ({} points of {} graphs). ", markdown_cell(group.title), points.size(), graphs.size());
+    if (!scores.empty())
+        out += front_sentences(scores, error) + tuning_sentence(scores) + beaten_sentence(scores, error);
+    if (!black.empty())
+        out += " Black here, because they make none of this light, and so on no front: `" +
+               join({black.begin(), black.end()}, "`, `") + "`.";
+    return out + "\n\n";
 }
 
 std::string scene_text(const MethodSuite& suite, const MethodScene& scene, const std::vector<ChartPoint>& points,
@@ -200,7 +220,11 @@ std::string scene_text(const MethodSuite& suite, const MethodScene& scene, const
                     scores, [&](const MethodScore& score) { return metric_text(metric, score.point->full, false); }) +
                 "\n\n";
     const glm::ivec2 size = all.front()->task.size();
-    return fmt::format("## {} ({} × {})\n\n", scene.shot, size.x, size.y) + groups + whole +
+    const std::string kept =
+        fmt::format("{:.0f} % of the pixels lie off edges and count; the reference's own noise is {} in {}.\n\n",
+                    100 * all.front()->kept_share, error_text(*all.front(), find_metric("reference_noise")),
+                    parts_text(all.front()->parts));
+    return fmt::format("## {} ({} × {})\n\n", scene.shot, size.x, size.y) + kept + groups + whole +
            other_sentences(scene, all) +
            "\n\nThe most accurate point of each graph:\n\n"
            "| graph | kind | held to | settings | ms | first frame, ms | on_change, ms | MiB | error | all light | "
@@ -217,10 +241,10 @@ std::string methods_markdown(const MethodSuite& suite, const std::vector<ChartPo
         std::string(metric.unit == MetricUnit::share ? "relative " : "") + markdown_cell(metric.title) +
         ", off depth and normal edges, against a path-traced reference of the light that a group of methods is held "
         "to; of occlusion they are in AO units. Times are a frame's in which every pass runs. A point is on the front "
-        "if no other of its group is both faster and more accurate.\n\n";
+        "if no other of its group is both faster and more accurate. Pictures are small: what a graph does at half "
+        "resolution counts for more than on a screen.\n\n";
     out += "[methods.html](methods.html) shows the same points to choose from, with their pictures, "
-           "[methods.csv](methods.csv) "
-           "holds them, and [gallery.md](gallery.md) shows pictures at equal time. Charts:";
+           "[methods.csv](methods.csv) holds them, and [gallery.md](gallery.md) shows pictures at equal time. Charts:";
     for (const MethodGroup& group : suite.groups)
         if (std::any_of(points.begin(), points.end(), [&](auto& p) { return group.holds(p); }))
             out += fmt::format(" [{0}](methods/{1}.svg)", group.title, group.name);

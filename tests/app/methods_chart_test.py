@@ -82,14 +82,14 @@ class Reports(Methods):
         better = {name: all(float(light[name][key]) < float(light[other][key]) for key in ("total_ms", "relative_rmse"))
                   for name, other in (("rsm", "rsm_tuned"), ("rsm_tuned", "rsm"))}
         for name, other in (("rsm", "rsm_tuned"), ("rsm_tuned", "rsm")):
-            self.assertEqual(bool(re.search(rf"Beaten everywhere.*`{other}` \(.*by `{name}`", bounce)), better[name], bounce)
+            self.assertEqual(bool(re.search(rf"Beaten everywhere.*by `{name}` \(.*`{other}` \(", bounce)), better[name], bounce)
         self.assertEqual("Nobody is beaten everywhere" in bounce, not any(better.values()), bounce)
 
         points = self.data("r")["points"]
-        self.assertEqual(sorted(f"{p['same']['relative_rmse']:.6g}" for p in points),
+        self.assertEqual(sorted(f"{p['same_transport']['relative_rmse']:.6g}" for p in points),
                          sorted(row["relative_rmse"] for row in rows))
         for point in points:
-            for picture in (point["picture"], point["error"]):
+            for picture in (point["thumbnail_png"], point["error_png"]):
                 self.assertTrue(base64.b64decode(picture).startswith(b"\x89PNG"))
         for name in ("methods/shadows.svg", "methods/bounce.svg", "gallery/" + str(self.shot).replace("/", "_") + ".svg"):
             xml.parse(self.out / "r" / name)
@@ -164,14 +164,15 @@ class Page(Methods):
         self.assertEqual(result.returncode, 0, result.stderr)
         seen = json.loads(result.stdout)
         points = self.data("c")["points"]
-        by_group = {name: [p for p in points if p["group"] == name] for name in ("shadows", "bounce")}
+        by_group = {name: [p for p in points if p["parts"] == parts]
+                    for name, parts in (("shadows", ["out.direct"]), ("bounce", ["out.indirect_diffuse"]))}
         self.assertEqual(seen["shadows"], len(by_group["shadows"]))
         self.assertEqual(seen["bounce"], len(by_group["bounce"]))
         self.assertEqual(seen["tuned_off"], 1, "rsm alone")
         self.assertEqual(seen["all"], len(points), "every method against all light")
         self.assertEqual(seen["hover"], 3, "picture, error, reference")
         front = [p for p in by_group["shadows"] if not any(
-            q["ms"] < p["ms"] and q["same"]["relative_rmse"] < p["same"]["relative_rmse"] for q in by_group["shadows"])]
+            q["total_ms"] < p["total_ms"] and q["same_transport"]["relative_rmse"] < p["same_transport"]["relative_rmse"] for q in by_group["shadows"])]
         self.assertEqual(seen["front"], len(front))
         self.assertIn("shadow_maps.resolution", seen["differs"])
         self.assertNotIn("scene", seen["differs"])
