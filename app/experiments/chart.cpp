@@ -1,5 +1,6 @@
 #include "app/experiments/chart.h"
 
+#include "app/experiments/chart_shards.h"
 #include "app/experiments/point_content.h"
 #include "core/error.h"
 #include "core/input_file.h"
@@ -62,6 +63,8 @@ static const ChartPoint* nearest_point(const std::vector<ChartPoint>& points, co
 void run_chart(const ChartPlan& plan, const std::function<void(const std::string&)>& say) {
     make_folder(plan.folder / "points");
     const std::vector<ChartPoint> found = load_points(plan.folder);
+    ShardRecord record = shard_record(plan.tasks, plan.shard, plan.shards);
+    write_shard_record(record, plan.folder);
     ErrorList errors;
     ContentReader contents;
     std::set<std::string> wanted;
@@ -90,24 +93,31 @@ void run_chart(const ChartPlan& plan, const std::function<void(const std::string
             tell(fmt::format("{:.3g} ms, {}", point.total_ms, error_summary(point.same_transport, point.absolute())));
         } catch (const Error& error) {
             if (!own) continue; // whoever measures it tells
-            errors.add(task.label() + ": " + error.what());
+            record.failed.push_back(task.label() + ": " + error.what());
+            errors.add(record.failed.back());
             tell(error.what());
         }
     }
+    record.ended = true;
+    write_shard_record(record, plan.folder);
     std::vector<ChartPoint> points = load_points(plan.folder);
     std::erase_if(points, [&](const ChartPoint& point) { return !wanted.contains(point.key); });
     if (!points.empty()) write_report(points, plan.folder, plan.view);
+    if (!points.empty() && plan.also_write) plan.also_write(points);
     errors.throw_if_any("chart");
 }
 
 void merge_charts(const std::vector<fs::path>& folders, const fs::path& folder, const ChartView& view,
-                  const std::function<void(const std::string&)>& say) {
+                  const std::function<void(const std::string&)>& say, const AlsoWrite& also_write) {
     std::vector<ChartPoint> points;
+    std::vector<ShardRecord> shards;
     for (const fs::path& from : folders) {
         if (std::error_code ignored; !fs::is_directory(from / "points", ignored))
             throw Error(fmt::format("'{}' is no chart's folder: there is no points/ in it", from.string()));
         for (ChartPoint& point : load_points(from))
             points.push_back(std::move(point));
+        for (ShardRecord& record : load_shard_records(from))
+            shards.push_back(std::move(record));
     }
     make_folder(folder / "points");
     for (ChartPoint& point : load_points(folder))
@@ -121,6 +131,11 @@ void merge_charts(const std::vector<fs::path>& folders, const fs::path& folder, 
         write_file_atomically(point_path(folder, point.key), point_to_json(point));
     sort_points(points);
     write_report(points, folder, view);
+    if (also_write) also_write(points);
+    ErrorList missing;
+    for (const std::string& line : dead_shards(shards, points))
+        missing.add(line);
+    missing.throw_if_any("chart --merge");
 }
 
 } // namespace bounce

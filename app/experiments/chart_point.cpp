@@ -46,6 +46,9 @@ std::string PointTask::name() const {
     if (device_reference) text += " device";
     for (const std::string& part : parts)
         text += " " + part;
+    if (bounces) text += fmt::format(" bounces {}", *bounces);
+    if (diffuse_only) text += fmt::format(" diffuse_only {}", *diffuse_only);
+    if (thorough) text += " thorough";
     return text;
 }
 
@@ -90,6 +93,8 @@ std::string point_to_json(const ChartPoint& p) {
     j["frames"] = p.task.frames;
     j["reference_goal"] = {{"noise", p.task.reference_noise}, {"samples", p.task.reference_samples}};
     if (p.task.device_reference) j["reference_goal"]["by"] = "device";
+    if (p.task.bounces) j["reference_goal"]["bounces"] = *p.task.bounces;
+    if (p.task.diffuse_only) j["reference_goal"]["diffuse_only"] = *p.task.diffuse_only;
     j["command"] = p.task.command();
     j["total_ms"] = p.total_ms;
     j["bytes"] = p.bytes;
@@ -117,6 +122,10 @@ std::string point_to_json(const ChartPoint& p) {
     j["content"] = content_json(p.content);
     j["thumbnail_png"] = p.thumbnail_png;
     j["error_png"] = p.error_png;
+    if (p.figures) {
+        j["figures"] = figures_json(*p.figures);
+        j["reference_png"] = p.reference_png;
+    }
     return json_dump(j, 1) + "\n";
 }
 
@@ -139,6 +148,9 @@ ChartPoint point_from_json(const std::string& text, const std::string& where) {
         p.task.reference_noise = j.at("reference_goal").at("noise");
         p.task.reference_samples = j.at("reference_goal").at("samples");
         p.task.device_reference = j.at("reference_goal").value("by", "cpu") == "device";
+        const ordered_json& goal = j.at("reference_goal");
+        if (goal.contains("bounces")) p.task.bounces = goal["bounces"].get<int>();
+        if (goal.contains("diffuse_only")) p.task.diffuse_only = goal["diffuse_only"].get<bool>();
         p.total_ms = j.at("total_ms");
         p.bytes = j.at("bytes");
         for (const auto& pass : j.at("passes")) {
@@ -160,6 +172,11 @@ ChartPoint point_from_json(const std::string& text, const std::string& where) {
         if (j.contains("content")) p.content = content_of(j["content"]);
         p.thumbnail_png = j.at("thumbnail_png");
         p.error_png = j.at("error_png");
+        p.task.thorough = j.contains("figures");
+        if (p.task.thorough) {
+            p.figures = figures_from_json(j["figures"]);
+            p.reference_png = j.at("reference_png");
+        }
         check_point(p, where);
         return p;
     } catch (const ordered_json::exception& error) {

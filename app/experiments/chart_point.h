@@ -1,6 +1,7 @@
 #pragma once
 // One point of a chart: a shot through a graph with some parameters; what it cost and how far it is from the truth.
 
+#include "app/experiments/method_figures.h"
 #include "app/session.h"
 #include "core/comparison.h"
 
@@ -22,6 +23,9 @@ struct PointTask {
     int reference_samples = 0;      ///< above 0: instead of the noise goal
     bool device_reference = false;  ///< by the graph path_traced
     std::vector<std::string> parts; ///< whose sum is compared; empty: what the graph's transport says
+    std::optional<int> bounces;     ///< of the reference, instead of what the graph's transport says
+    std::optional<bool> diffuse_only;
+    bool thorough = false; ///< MethodFigures are measured too
 
     glm::ivec2 size() const { return session.size.value_or(glm::ivec2(0)); }
     /// Names the task (session, frames, reference goal): the same text for the same task.
@@ -61,6 +65,8 @@ struct ChartPoint {
     std::string renderer, driver, machine; ///< see Origin
     std::string measured;                  ///< when: UTC, "2026-01-31T12:00:00Z"
     std::string thumbnail_png, error_png;  ///< base64
+    std::optional<MethodFigures> figures;  ///< of a thorough task
+    std::string reference_png;             ///< likewise: what the thumbnail should look like
     bool on_front = false;                 ///< filled in by mark_pareto
 
     /// Whether its errors are told in AO units: see only_occlusion.

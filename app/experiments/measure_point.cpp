@@ -88,8 +88,13 @@ void compare_with_reference(Session& session, ChartPoint& point, const std::func
     shot.width = session.size().x;
     shot.height = session.size().y;
     ReferenceSettings settings = transport_settings(graph.model());
+    if (task.bounces) settings.bounces = *task.bounces;
+    if (task.diffuse_only) settings.diffuse_only = *task.diffuse_only;
     if (occlusion) settings.bounces = 0; // it has none
-    LayeredImage same = reference_for(task, shot, settings, occlusion ? point.parts.front() : "out.radiance", say);
+    // The goal of noise is the picture's as a whole; of a thorough task what is compared, which may be a small share of
+    // it, and so far noisier.
+    const bool of_part = occlusion || (task.thorough && point.parts.size() == 1);
+    LayeredImage same = reference_for(task, shot, settings, of_part ? point.parts.front() : "out.radiance", say);
     ComparisonOptions options;
     options.parts = {join(point.parts, "+")};
     options.absent_is_black = true;
@@ -109,6 +114,11 @@ void compare_with_reference(Session& session, ChartPoint& point, const std::func
     const float exposure = comparison.parts.front().exposure;
     point.thumbnail_png = base64(encode_png(small_picture(shown(own, !occlusion, exposure), 240)));
     point.error_png = base64(encode_png(heat_map(relative_error_map(own, truth), 0, 0.5f, comparison.mask)));
+    if (!point.figures) return;
+    point.reference_png = base64(encode_png(small_picture(shown(truth, !occlusion, exposure), 240)));
+    if (const auto direct = same.layers.find("out.direct"); !occlusion && direct != same.layers.end())
+        add_shadow_errors(*point.figures, part_or_black(picture, "out.direct", direct->second), direct->second,
+                          comparison.mask);
 }
 
 ChartPoint measure_point(const PointTask& task, const PointContent& content,
@@ -125,6 +135,10 @@ ChartPoint measure_point(const PointTask& task, const PointContent& content,
         if (frame > 0) session.advance();
         if (frame == task.warm_up) session.graph().forget_timings();
         session.render(true);
+        if (frame == 0 && task.thorough) {
+            session.graph().finish_timings();
+            point.figures.emplace().first_ms = session.graph().frame_ms();
+        }
     }
     session.graph().finish_timings();
     throw_if_broken(session, "nothing was measured");
@@ -138,9 +152,10 @@ ChartPoint measure_point(const PointTask& task, const PointContent& content,
         point.skipped.emplace_back(d.id, d.reason);
     point.total_ms = graph.frame_ms();
     point.bytes = graph.plan().total_bytes();
-    point.transport_bounces = transport.bounces;
+    point.transport_bounces = task.bounces.value_or(transport.bounces);
     point.parts = task.parts.empty() ? transport.parts : task.parts;
     compare_with_reference(session, point, say);
+    if (point.figures) add_steady_figures(*point.figures, session, point.parts.front());
     const Origin origin = origin_here();
     point.renderer = origin.renderer;
     point.driver = origin.driver;

@@ -33,6 +33,11 @@ class PointCheck {
                 not_negative("passes", ms);
         picture("thumbnail_png", point_.thumbnail_png);
         picture("error_png", point_.error_png);
+        picture("reference_png", point_.reference_png);
+        if (!point_.figures) return;
+        for (const FigureColumn& column : figure_columns())
+            if (const double value = *point_.figures.*column.value; !std::isnan(value))
+                not_negative(column.name, value);
     }
 
   private:

@@ -9,6 +9,7 @@
 #include "core/text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <tuple>
 
@@ -70,6 +71,9 @@ std::string chart_csv(const std::vector<ChartPoint>& points) {
         for (const Metric& metric : metrics())
             header.push_back(against + metric.name);
     }
+    const bool thorough = std::any_of(points.begin(), points.end(), [](auto& p) { return p.figures.has_value(); });
+    for (const FigureColumn& column : figure_columns())
+        if (thorough) header.push_back(column.name);
     header.push_back("pareto");
     for (const std::string& pass : passes)
         header.insert(header.end(), {pass + "_ms", pass + "_p10_ms", pass + "_p90_ms"});
@@ -92,6 +96,10 @@ std::string chart_csv(const std::vector<ChartPoint>& points) {
                 const auto value = values->find(metric.name);
                 row.push_back(value ? fmt::format("{:.6g}", *value) : "");
             }
+        }
+        for (const FigureColumn& column : figure_columns()) {
+            const double value = p.figures ? *p.figures.*column.value : MethodFigures::k_none;
+            if (thorough) row.push_back(std::isnan(value) ? "" : fmt::format("{:.6g}", value));
         }
         row.push_back(p.on_front ? "1" : "0");
         for (const std::string& id : passes) {
@@ -175,8 +183,11 @@ std::string chart_markdown(const std::vector<ChartPoint>& points) {
     return out;
 }
 
-/// An SVG file that says where it comes from.
-static std::string with_head(const std::string& svg, const std::vector<ChartPoint>& points) {
+std::string head_of(const std::vector<ChartPoint>& points) {
+    return origin_head(origins_of(points));
+}
+
+std::string with_head(const std::string& svg, const std::vector<ChartPoint>& points) {
     const size_t at = svg.find('\n') + 1; // behind the opening tag
     return svg.substr(0, at) + "<desc>" + escape_markup(origin_head(origins_of(points))) + "</desc>\n" + svg.substr(at);
 }

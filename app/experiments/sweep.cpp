@@ -59,6 +59,8 @@ Sweep load_sweep(const std::string& name) {
     Sweep sweep;
     const std::vector<std::string> keys = {"about", "base", "lists", "each", "enable", "disable", "metric"};
     if (!json.is_object()) throw Error(path.string() + ": a sweep is an object {\"base\": {…}, \"lists\": {…}}");
+    if (json.contains("groups"))
+        throw Error(path.string() + ": this sweep is a chart of all methods: expected bounce chart --all");
     for (const auto& [key, value] : json.items()) {
         if (key == "about" && value.is_string())
             sweep.about = value.get<std::string>();
