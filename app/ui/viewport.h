@@ -21,10 +21,13 @@ class Viewport {
 
   private:
     const GpuTexture* texture_to_show(PanelContext& context);
+    bool draw_snapshots(PanelContext& context, const Area& picture);
+    void note_viewed(const GpuTexture& source, const ViewerSettings& settings);
     Area place_picture(const PanelContext& context, const Area& area, glm::vec2 texels) const;
     void zoom(PanelContext& context, const Area& area, const Area& picture) const;
     void follow_pointer(PanelContext& context, const Area& picture, bool hovered) const;
-    void move_camera(PanelContext& context, const Area& picture, bool hovered, bool active, Window& window);
+    void move_camera(PanelContext& context, const Area& picture, bool hovered, bool active, bool pressed,
+                     Window& window);
     void overlay(PanelContext& context, const Area& area, const Area& picture) const;
 
     std::unique_ptr<TextureView> view_;

@@ -2,6 +2,9 @@
 
 #include "app/ui/live_comparison.h"
 #include "app/ui/settings_key.h"
+#include "app/ui/snapshots.h"
+#include "app/ui/timeline.h"
+#include "app/ui/viewed.h"
 #include "core/json_text.h"
 #include "core/log.h"
 
@@ -80,6 +83,25 @@ void end_widget_frame(const PanelContext& context) {
         json["times"]["runs"][pass.id] = timing.samples;
         json["times"]["ms"][pass.id] = timing.median;
     }
+    json["viewed"] = {{"resource", viewed().resource},
+                      {"range", {viewed().range.x, viewed().range.y}},
+                      {"histogram", viewed().histogram},
+                      {"false_colour", context.ui.viewer.false_colour}};
+    json["bottom"] = context.ui.window.layout.show_bottom ? context.ui.window.bottom_tab : "";
+    if (const Timeline* timeline = context.ui.timeline.get(); timeline && timeline->shown()) {
+        const TimelineFrame& frame = *timeline->shown();
+        json["timeline"] = {{"frames", timeline->frames.size()},
+                            {"pinned", timeline->pinned},
+                            {"number", frame.number},
+                            {"passes_ms", frame.passes_ms()},
+                            {"bytes", frame.bytes},
+                            {"change", frame.change},
+                            {"error", frame.error}};
+    }
+    json["snapshots"] = nlohmann::json::array();
+    if (context.ui.snapshots)
+        for (const Snapshot& snapshot : context.ui.snapshots->all)
+            json["snapshots"].push_back(snapshot.name);
     if (const LiveComparison* comparison = context.ui.comparison.get()) {
         json["comparison"] = {{"view", int(comparison->view)},
                               {"split", comparison->split},

@@ -2,6 +2,7 @@
 #include "app/ui/captures.h"
 #include "app/ui/open.h"
 #include "app/ui/shot_writer.h"
+#include "app/ui/snapshots.h"
 #include "app/viewer/viewer_app.h"
 
 #include <algorithm>
@@ -109,6 +110,9 @@ void ViewerApp::handle_files(KeyCommand command) {
     case KeyCommand::record:
         ui_.window.capture.recording ? stop_recording(panels) : start_recording(panels);
         break;
+    case KeyCommand::snapshot:
+        take_snapshot(panels);
+        break;
     case KeyCommand::save_shot:
         save_shot(panels);
         break;
@@ -133,7 +137,13 @@ void ViewerApp::handle_window(KeyCommand command) {
         palette_.open(palette_entries(context(), [this](const std::string& chord) { run_command({chord}); }));
         break;
     case KeyCommand::show_log:
-        ui_.show_log = !ui_.show_log;
+        toggle_bottom(ui_.window, "Log");
+        break;
+    case KeyCommand::show_timeline:
+        toggle_bottom(ui_.window, "Over time");
+        break;
+    case KeyCommand::show_nodes:
+        toggle_bottom(ui_.window, "Nodes");
         break;
     case KeyCommand::show_left:
         ui_.window.layout.show_left = !ui_.window.layout.show_left;

@@ -3,7 +3,10 @@
 #include "app/ui/captures.h"
 #include "app/ui/live_comparison.h"
 #include "app/ui/open.h"
+#include "app/ui/settings_key.h"
+#include "app/ui/snapshots.h"
 #include "app/ui/style.h"
+#include "app/ui/timeline.h"
 #include "app/viewer/viewer_app.h"
 #include "core/log.h"
 #include "core/problem.h"
@@ -64,6 +67,10 @@ void ViewerApp::run() {
         if (rendered) {
             ui_.frame_times.push_back({float(1000 * (seconds_now() - start)), !planned_now_});
             if (ui_.frame_times.size() > k_kept_frames) ui_.frame_times.erase(ui_.frame_times.begin());
+            if (!ui_.timeline) ui_.timeline = std::make_shared<Timeline>();
+            attempt([&] {
+                ui_.timeline->add(*session_, ui_.frame_times.back().ms, ui_.comparison.get(), settings_key(*session_));
+            });
         }
     }
     if (!options_.capture_on_exit.empty()) write_picture(*session_, options_.capture_on_exit);
@@ -176,7 +183,7 @@ void ViewerApp::fit_picture() {
     if (sizing.fit) {
         float scale = window_->content_scale() * ui_.window.interface_scale;
         glm::ivec2 display = window_->size();
-        Areas areas = arrange(ui_.window.layout, {float(display.x), float(display.y)}, scale, ui_.show_log);
+        Areas areas = arrange(ui_.window.layout, {float(display.x), float(display.y)}, scale);
         whole = glm::vec2(areas.viewport.size.x, areas.viewport.size.y) * window_->pixel_ratio();
     } else if (sizing.fixed.x > 0 && sizing.fixed.y > 0) {
         whole = glm::vec2(sizing.fixed);
@@ -261,6 +268,8 @@ void ViewerApp::make_gpu_again() {
     viewport_.release_gpu();
     if (ui_.comparison) ui_.comparison->release_gpu();
     ui_.cones.reset();
+    ui_.nodes.reset();
+    if (ui_.snapshots) ui_.snapshots->release_gpu();
     window_->make_again();
     make_interface();
     session_->restore_gpu();
