@@ -283,7 +283,8 @@ void Viewport::draw(PanelContext& context, const Area& area, Window& window) {
     }
     note_rectangle("viewport", picture.min.x, picture.min.y, picture.min.x + picture.size.x,
                    picture.min.y + picture.size.y);
-    move_camera(context, picture, hovered, active, pressed, window);
+    const bool taken = gizmo_.draw(context, picture, hovered, pressed, active);
+    move_camera(context, picture, hovered && !taken, active && !taken, pressed && !taken, window);
     overlay(context, area, picture);
     if (caption_.empty()) draw_legend(context, area, shown_);
     ImGui::End();

@@ -1,5 +1,6 @@
 #include "app/ui/widget_rects.h"
 
+#include "app/ui/light_place.h"
 #include "app/ui/live_comparison.h"
 #include "app/ui/settings_key.h"
 #include "app/ui/snapshots.h"
@@ -69,10 +70,13 @@ void end_widget_frame(const PanelContext& context) {
     }
     json["filter"] = context.ui.parameter_filter;
     json["lights"] = nlohmann::json::array();
-    for (const Light& light : session.shot().scene.lights) {
-        if (json["lights"].size() == 8) break;
+    for (size_t i = 0; i < session.shot().scene.lights.size() && i < 8; ++i) {
+        const Light& light = session.shot().scene.lights[i];
+        const LightPlace place = place_of_light(session, i).value_or(LightPlace());
         json["lights"].push_back({{"intensity", {light.intensity.r, light.intensity.g, light.intensity.b}},
                                   {"outer_cone", light.outer_cone},
+                                  {"position", {place.position.x, place.position.y, place.position.z}},
+                                  {"direction", {place.direction.x, place.direction.y, place.direction.z}},
                                   {"enabled", light.enabled}});
     }
     json["times"] = {{"passes_ms", whole_frame_ms(session.graph())},

@@ -100,6 +100,13 @@ void ViewerApp::handle_camera(KeyCommand command, const std::string& chord) {
 
 void ViewerApp::handle_files(KeyCommand command) {
     PanelContext panels = context();
+    const bool of_the_picture = command == KeyCommand::capture_png || command == KeyCommand::capture_exr ||
+                                command == KeyCommand::save_shot || command == KeyCommand::snapshot;
+    if (of_the_picture && motion_share_ < 1) {
+        moved_at_ = -1e9; // it rests: what is kept has all pixels
+        fit_picture();
+        render();
+    }
     switch (command) {
     case KeyCommand::capture_png:
         capture_picture(panels, ".png");
@@ -164,6 +171,7 @@ void ViewerApp::handle_window(KeyCommand command) {
         window_->close();
         break;
     case KeyCommand::undo:
+        note_camera(); // also one that has not come to rest
         ui_.say(undo_.next_undo().empty() ? "nothing to undo" : "undone: " + undo_.next_undo());
         undo_.undo();
         ui_.redraw();
