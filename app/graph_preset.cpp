@@ -108,6 +108,15 @@ std::string graph_preset_text(const Session& session, const fs::path& path, cons
     }
 }
 
+OrderedJson graph_as_set(const Session& session) {
+    const GraphModel& model = session.graph().model();
+    try {
+        return with_panel_values(expand_graph(model.file().path).root, model);
+    } catch (const OrderedJson::exception& error) {
+        throw Error("'" + model.file().path.string() + "' is not the graph that was loaded any more: " + error.what());
+    }
+}
+
 fs::path graph_preset_path(const std::string& name) {
     if (name.find('/') != std::string::npos) {
         fs::path path(name);

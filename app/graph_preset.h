@@ -2,6 +2,7 @@
 // A session's values as a graph file.
 
 #include "app/session.h"
+#include "graph/graph_overlay.h"
 
 #include <filesystem>
 
@@ -12,6 +13,10 @@ namespace bounce {
 /// file, that file with these values in it; its comments and its layout stay. Throws Error when the loaded graph starts
 /// from `path`, or is not in its file any more.
 std::string graph_preset_text(const Session& session, const std::filesystem::path& path, const std::string& about = "");
+
+/// The session's graph as one that extends nothing, with its present values and switches. Throws Error when it is not
+/// in its file any more.
+OrderedJson graph_as_set(const Session& session);
 
 /// Where a preset of that name goes: assets/graphs/NAME.json, or the path when it is one. Throws Error for a bad name.
 std::filesystem::path graph_preset_path(const std::string& name);

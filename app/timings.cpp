@@ -44,6 +44,20 @@ std::string timing_table(const Session& session) {
     return out;
 }
 
+std::string time_text(const PassTiming& timing) {
+    if (timing.unchanged) {
+        return fmt::format("unchanged: none of its inputs differs, so what it made stands (graph.rebuild=on_change)\n"
+                           "its last run took GPU {:.3f} ms",
+                           timing.last);
+    }
+    if (!timing.samples && timing.last > 0)
+        return fmt::format("GPU {:.3f} ms with earlier settings; the present ones have not been measured yet",
+                           timing.last);
+    if (!timing.samples) return "not timed yet";
+    return fmt::format("GPU {:.3f} ms, median of {} runs\n10 to 90 % lie from {:.3f} to {:.3f} ms", timing.median,
+                       timing.samples, timing.low, timing.high);
+}
+
 void write_timings(const Session& session, const std::filesystem::path& path) {
     const Graph& graph = session.graph();
     nlohmann::ordered_json json = nlohmann::ordered_json::parse(picture_metadata(session, ""));

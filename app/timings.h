@@ -13,6 +13,9 @@ std::string timing_table(const Session& session);
 /// The same as JSON, with renderer and commit. Throws Error when it cannot be written.
 void write_timings(const Session& session, const std::filesystem::path& path);
 
+/// A pass's time in words: median, spread and runs, or that it is old, unchanged or not known.
+std::string time_text(const PassTiming& timing);
+
 /// Bytes of the resources that a pass is the first to write.
 uint64_t bytes_of_pass(const Plan& plan, const std::string& id);
 

@@ -2,9 +2,11 @@
 #include "app/commands/command.h"
 #include "app/commands/option_checks.h"
 #include "app/commands/session_options.h"
+#include "app/graph_difference.h"
+#include "app/graph_svg.h"
 #include "app/print.h"
 #include "core/error.h"
-#include "graph/graph_overlay.h"
+#include "core/image.h"
 #include "graph/plan_needs.h"
 #include "scene/find_scene.h"
 
@@ -20,23 +22,20 @@ struct GraphArguments {
     std::string size;
     std::string limits;
     bool graphviz = false;
+    bool svg = false;
+    std::string output;
     bool expanded = false;
     std::string diff;
 };
 
-/// Members in the order in which graph files have them.
 OrderedJson whole_graph(const std::string& name) {
-    OrderedJson root = expand_graph(find_graph(name)).root, ordered = OrderedJson::object();
-    for (const char* key : {"version", "about", "transport", "parameters", "resources", "passes"})
-        if (root.contains(key)) ordered[key] = root[key];
-    return ordered;
+    return in_file_order(expand_graph(find_graph(name)).root);
 }
 
 /// The overlay that makes `to` of `from`.
 std::string departures_text(const std::string& from, const std::string& to) {
-    OrderedJson overlay = {{"version", 1}, {"extends", from}};
-    overlay.update(graph_departures(whole_graph(from), whole_graph(to)));
-    return graph_text(overlay);
+    const std::string text = graph_difference(from, whole_graph(from), whole_graph(to));
+    return text.empty() ? graph_text({{"version", 1}, {"extends", from}}) : text;
 }
 
 int print_graph(const GraphArguments& arguments) {
@@ -61,7 +60,11 @@ int print_graph(const GraphArguments& arguments) {
     const SceneFacts facts = shot_facts(shot);
     const Plan plan = model.plan(facts, options.size.value_or(glm::ivec2(shot.width, shot.height)));
     check_plan_limits(model, facts, plan); // pretended ones: there is no driver here
-    if (arguments.graphviz)
+    if (arguments.svg && !arguments.output.empty())
+        write_file_atomically(arguments.output, graph_svg(model, plan, facts));
+    else if (arguments.svg)
+        print("{}", graph_svg(model, plan, facts));
+    else if (arguments.graphviz)
         print("{}", plan_graphviz(model, plan));
     else
         print("{}\nneeds, and what every driver of OpenGL 4.6 has:\n{}", plan_text(model, plan),
@@ -81,12 +84,18 @@ void add_graph_command(CLI::App& app, CommandFunction& chosen) {
     command->add_option("--set", arguments->sets, "a parameter: pass.name=value")->allow_extra_args(false);
     command->add_option("--size", arguments->size, "WxH instead of the shot's size")->check(picture_size());
     SessionArguments::add_limits_to(*command, arguments->limits);
-    command->add_flag("--graphviz", arguments->graphviz, "as a Graphviz digraph (dot -Tsvg)");
-    auto* expanded = command->add_flag("--expanded", arguments->expanded, "as one graph file that extends nothing");
+    auto* graphviz = command->add_flag("--graphviz", arguments->graphviz, "as a Graphviz digraph (dot -Tsvg)");
+    auto* svg = command->add_flag("--svg", arguments->svg, "as a picture of boxes and wires")->excludes(graphviz);
+    command->add_option("-o,--output", arguments->output, "the .svg to write instead of printing it")
+        ->type_name("FILE")
+        ->needs(svg);
+    auto* expanded =
+        command->add_flag("--expanded", arguments->expanded, "as one graph file that extends nothing")->excludes(svg);
     command
         ->add_option("--diff", arguments->diff,
                      "as what another graph departs from it in: a graph file that extends it")
-        ->excludes(expanded);
+        ->excludes(expanded)
+        ->excludes(svg);
     command->callback([arguments, &chosen] { chosen = [arguments] { return print_graph(*arguments); }; });
 }
 

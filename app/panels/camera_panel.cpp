@@ -137,6 +137,11 @@ void draw_size(PanelContext& context) {
     }
     help("Fewer pixels are rendered on a slow machine.");
     ImGui::PopItemWidth();
+    ImGui::Checkbox("coarse while moving", &context.ui.window.coarse_while_moving);
+    note_widget("camera.coarse_while_moving");
+    help(
+        "Where a frame takes more than 100 ms, fewer pixels are rendered while the camera or a value moves, and all of "
+        "them when it rests. Only for a picture of the window's size.");
     ImGui::TextColored(k_dim_colour, "%d × %d pixels", context.session.size().x, context.session.size().y);
 }
 

@@ -70,7 +70,17 @@ void draw_reproduction(PanelContext& context) {
     help(("Camera, lights, environment, size and time as a shot file (" + chord_of(KeyCommand::save_shot) + ").")
              .c_str());
     std::string command = reproducing_command(context);
+    static std::string name;
     ImGui::SameLine();
+    ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 6);
+    ImGui::InputTextWithHint("##shot_name", "name of a new shot", &name);
+    note_widget("capture.shot_name");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(name.empty());
+    if (ImGui::Button("into the list")) later(context, [](PanelContext& c) { save_shot_in_list(c, name); });
+    ImGui::EndDisabled();
+    note_widget("capture.shot_in_list");
+    help("As a file of the assets' shots, so that the list of shots has it.");
     ImGui::BeginDisabled(command.empty());
     if (ImGui::Button("copy command")) {
         ImGui::SetClipboardText(command.c_str());

@@ -1,7 +1,7 @@
 // The graph: its passes in order, what each costs, what does not run and why.
 #include "app/panels/panel.h"
-#include "app/panels/parameter_edit.h"
-#include "app/panels/pass_rows.h"
+#include "app/panels/pass_switch.h"
+#include "app/pass_rows.h"
 #include "app/timings.h"
 #include "app/ui/marks.h"
 #include "app/ui/open.h"
@@ -81,35 +81,11 @@ void draw_problems(const Graph& graph) {
     }
 }
 
-void switch_passes(Session& session, UiState& ui, const std::vector<std::string>& ids, bool on) {
-    for (const std::string& id : ids)
-        if (PassNode* node = session.graph().model().find_node(id)) node->enabled = on;
-    ui.redraw();
-}
-
 void draw_switch(PanelContext& context, const std::string& id) {
     const PassNode* node = context.session.graph().model().find_node(id);
     bool on = node && node->enabled;
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(1, 1));
-    if (ImGui::Checkbox("##enabled", &on)) {
-        Session& session = context.session;
-        UiState& ui = context.ui;
-        // With a pass come on those that make what it reads.
-        std::vector<std::string> ids{id};
-        if (on) ids = session.graph().model().off_before(id);
-        switch_passes(session, ui, ids, on);
-        if (const std::string why = plan_refusal(session); !why.empty()) {
-            switch_passes(session, ui, ids, !on);
-            if (plan_refusal(session).empty()) {
-                ImGui::PopStyleVar();
-                return ui.say(fmt::format("{}: {} stays {}", why, id, on ? "off" : "on"), true);
-            }
-            switch_passes(session, ui, ids, on); // it was wrong before: this may be one of several steps to mend it
-        }
-        context.undo.push({(on ? "switch on " : "switch off ") + id,
-                           [&session, &ui, ids, on] { switch_passes(session, ui, ids, !on); },
-                           [&session, &ui, ids, on] { switch_passes(session, ui, ids, on); }});
-    }
+    if (ImGui::Checkbox("##enabled", &on)) switch_pass(context, id, on);
     ImGui::PopStyleVar();
     note_widget("graph.enabled." + id);
 }
@@ -134,20 +110,6 @@ void draw_time(const PassTiming& timing, double slowest) {
         show_text(fmt::format(" {:.3f}", timing.median));
     else
         show_text(timing.last > 0 ? fmt::format(" {:.3f} (old)", timing.last) : " -", k_dim_colour);
-}
-
-std::string time_text(const PassTiming& timing) {
-    if (timing.unchanged) {
-        return fmt::format("unchanged: none of its inputs differs, so what it made stands (graph.rebuild=on_change)\n"
-                           "its last run took GPU {:.3f} ms",
-                           timing.last);
-    }
-    if (!timing.samples && timing.last > 0)
-        return fmt::format("GPU {:.3f} ms with earlier settings; the present ones have not been measured yet",
-                           timing.last);
-    if (!timing.samples) return "not timed yet";
-    return fmt::format("GPU {:.3f} ms, median of {} runs\n10 to 90 % lie from {:.3f} to {:.3f} ms", timing.median,
-                       timing.samples, timing.low, timing.high);
 }
 
 /// Values of this pass's outputs that were not finite in the newest frame.

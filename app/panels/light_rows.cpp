@@ -1,10 +1,10 @@
 #include "app/panels/light_rows.h"
 
 #include "app/ui/edit.h"
+#include "app/ui/light_place.h"
 #include "app/ui/style.h"
 #include "app/ui/typed_number.h"
 #include "app/ui/widget_rects.h"
-#include "scene/keyframes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,51 +20,13 @@ bool edit_colour(glm::vec3& colour) {
     return ImGui::ColorEdit3("colour", &colour.x, ImGuiColorEditFlags_Float);
 }
 
-int node_of_light(const Scene& scene, size_t light) {
-    for (size_t i = 0; i < scene.nodes.size(); ++i) {
-        if (scene.nodes[i].light == int(light)) return int(i);
-    }
-    return -1;
-}
-
-/// Where a light is and which way it shines, in the file's coordinates.
-struct Place {
-    glm::dvec3 position{0};
-    glm::vec3 direction{0, -1, 0};
-};
-
-/// What is not zero by rounding alone would be shown as -0.000.
-glm::vec3 clean(glm::vec3 v) {
-    for (int i = 0; i < 3; ++i) {
-        if (std::abs(v[i]) < 1e-6f) v[i] = 0;
-    }
-    return v;
-}
-
-Place place_of(const glm::dmat4& world) {
-    return {glm::dvec3(world[3]), clean(glm::vec3(-glm::normalize(glm::dvec3(world[2]))))};
-}
-
-/// Moves the node so that its light is there. The parent stays.
-void put(Scene& scene, int index, const Place& place, float time) {
-    Node& node = scene.nodes[size_t(index)];
-    glm::dmat4 parent(1);
-    if (node.parent >= 0) parent = file_matrices(scene, time)[size_t(node.parent)];
-    glm::dmat4 inverse = glm::inverse(parent);
-    node.translation = glm::dvec3(inverse * glm::dvec4(place.position, 1));
-    node.rotation = look_rotation(glm::dmat3(inverse) * glm::dvec3(place.direction), true);
-    // A light shines the same at any scale.
-    node.scale = glm::dvec3(1);
-    node.has_matrix = false;
-}
-
 class LightRow {
   public:
-    LightRow(PanelContext& context, size_t index, const std::vector<glm::dmat4>& worlds)
+    LightRow(PanelContext& context, size_t index)
         : context_(context), index_(index), light_(context.session.shot().scene.lights[index]),
           node_(node_of_light(context.session.shot().scene, index)) {
         name_ = light_.name.empty() ? fmt::format("light {}", index + 1) : light_.name;
-        if (node_ >= 0) place_ = place_of(worlds[size_t(node_)]);
+        if (const auto place = place_of_light(context.session, index)) place_ = *place;
     }
 
     void draw() {
@@ -82,6 +44,7 @@ class LightRow {
         if (!ImGui::TreeNodeEx("light", flags, "%s", name_.c_str())) return;
         ImGui::SameLine();
         ImGui::TextColored(k_dim_colour, "%s", k_types[size_t(light_.type)]);
+        draw_tools();
         ImGui::BeginDisabled(!light_.enabled);
         ImGui::PushItemWidth(-ImGui::GetFontSize() * 5);
         draw_intensity();
@@ -93,7 +56,23 @@ class LightRow {
         ImGui::TreePop();
     }
 
+    bool asked_for_copy = false, asked_to_go = false;
+
   private:
+    void draw_tools() {
+        int& chosen = context_.ui.chosen_light;
+        bool dragged = chosen == int(index_);
+        if (ImGui::Checkbox("handles", &dragged)) chosen = dragged ? int(index_) : -1;
+        note_widget(fmt::format("light.{}.handles", index_));
+        help("Shows it in the picture: drag its middle, an axis, or the end of its arrow.");
+        ImGui::SameLine();
+        asked_for_copy = ImGui::SmallButton("duplicate");
+        note_widget(fmt::format("light.{}.duplicate", index_));
+        ImGui::SameLine();
+        asked_to_go = ImGui::SmallButton("delete");
+        note_widget(fmt::format("light.{}.delete", index_));
+    }
+
     void set(const Light& after, const char* what) {
         Session& session = context_.session;
         edit(context_, name_ + ": " + what, light_, after,
@@ -167,7 +146,7 @@ class LightRow {
         const Node& node = context_.session.shot().scene.nodes[size_t(node_)];
         bool driven = node.dynamic;
         ImGui::BeginDisabled(driven);
-        Place after = place_;
+        LightPlace after = place_;
         bool changed = false;
         float diagonal = std::max(context_.session.facts().bounds.diagonal(), 1e-3f) *
                          float(context_.session.shot().scene.space.unit);
@@ -189,22 +168,7 @@ class LightRow {
         ImGui::EndDisabled();
         if (driven) ImGui::TextColored(k_dim_colour, "a path or an animation moves it");
         if (!changed || driven || glm::length(after.direction) < 1e-4f) return;
-        move(after);
-    }
-
-    void move(const Place& after) {
-        Session& session = context_.session;
-        Node before = session.shot().scene.nodes[size_t(node_)], moved = before;
-        // Directions are kept as they are typed or dragged, axis by axis; only the node's rotation is of unit length.
-        put(session.shot().scene, node_, after, session.time());
-        std::swap(moved, session.shot().scene.nodes[size_t(node_)]);
-        edit(context_, name_ + ": place", before, moved,
-             [&session, &ui = context_.ui, node = size_t(node_)](const Node& value) {
-                 if (node >= session.shot().scene.nodes.size()) return;
-                 session.shot().scene.nodes[node] = value;
-                 session.scene_edited();
-                 ui.redraw();
-             });
+        move_light(context_, index_, after);
     }
 
     PanelContext& context_;
@@ -212,23 +176,44 @@ class LightRow {
     Light light_; ///< as it is before this frame's edit
     int node_;
     std::string name_;
-    Place place_;
+    LightPlace place_;
 };
 
 } // namespace
 
+static void draw_new_lights(PanelContext& context) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(k_dim_colour, "add");
+    for (int type = 0; type < 3; ++type) {
+        ImGui::SameLine();
+        if (ImGui::SmallButton(k_types[type])) add_light(context, LightType(type));
+        note_widget(std::string("lights.add.") + k_types[type]);
+        help(type == int(LightType::directional) ? "It shines along the view."
+                                                 : "It is placed in front of the camera.");
+    }
+    ImGui::SameLine();
+    if (ImGui::SmallButton("headlight")) add_headlight(context);
+    note_widget("lights.add.headlight");
+    help("A wide spot at the camera.");
+}
+
 void draw_light_rows(PanelContext& context) {
     const Scene& scene = context.session.shot().scene;
+    draw_new_lights(context);
     if (scene.lights.empty()) {
         ImGui::TextColored(k_dim_colour, "no point, spot or directional light");
         return;
     }
-    std::vector<glm::dmat4> worlds = file_matrices(scene, context.session.time());
+    int wanted = -1; // rows are drawn to their end before one comes or goes
+    bool remove = false;
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         ImGui::PushID(int(i));
-        LightRow(context, i, worlds).draw();
+        LightRow row(context, i);
+        row.draw();
+        if (row.asked_for_copy || row.asked_to_go) wanted = int(i), remove = row.asked_to_go;
         ImGui::PopID();
     }
+    if (wanted >= 0) remove ? delete_light(context, size_t(wanted)) : duplicate_light(context, size_t(wanted));
 }
 
 } // namespace bounce

@@ -1,6 +1,7 @@
 // Every parameter of the graph, by pass.
 #include "app/panels/panel.h"
 #include "app/panels/parameter_edit.h"
+#include "app/panels/parameter_sweep.h"
 #include "app/panels/parameter_widget.h"
 #include "app/ui/marks.h"
 #include "app/ui/typed_number.h"
@@ -94,6 +95,11 @@ void draw_menu(PanelContext& context, const std::string& name, const Parameter& 
         context.ui.say("copied: " + option);
     }
     note_widget(name + ".copy");
+    if (!sweep_values(parameter.info).empty()) {
+        if (ImGui::MenuItem("Sweep over its range")) ParameterSweep::start(context, name);
+        note_widget(name + ".sweep");
+        show_tooltip("Measures time, and error where a reference is there, at values from one end to the other.");
+    }
     ImGui::EndPopup();
 }
 
@@ -226,6 +232,7 @@ void draw_parameters_panel(PanelContext& context) {
     const GraphModel& model = context.session.graph().model();
     std::vector<NamedParameter> all = all_parameters(model);
     draw_tools(context, all);
+    draw_sweep(context);
     const UiState& ui = context.ui;
     std::erase_if(all, [&](const NamedParameter& named) {
         const ParameterInfo& info = named.parameter->info;
@@ -242,8 +249,13 @@ void draw_parameters_panel(PanelContext& context) {
             ++end;
         const PassNode* node = model.find_node(id);
         std::string type = node ? node->entry.type : "";
-        bool open = ImGui::CollapsingHeader(id.c_str(), ImGuiTreeNodeFlags_DefaultOpen);
+        // What is looked for is shown in any case.
+        std::set<std::string>& closed = context.ui.window.closed_passes;
+        const bool searched = !ui.parameter_filter.empty();
+        ImGui::SetNextItemOpen(searched || !closed.contains(id));
+        const bool open = ImGui::CollapsingHeader(id.c_str());
         note_widget("parameters.pass." + id);
+        if (ImGui::IsItemToggledOpen() && !searched) open ? void(closed.erase(id)) : void(closed.insert(id));
         if (open && ImGui::BeginTable(id.c_str(), 2, ImGuiTableFlags_SizingStretchProp)) {
             ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 5);
             ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 6);

@@ -1,7 +1,7 @@
 // Every texture and buffer of the graph, and how the chosen one is shown.
 #include "app/panels/panel.h"
-#include "app/panels/pass_rows.h"
 #include "app/panels/viewer_settings.h"
+#include "app/pass_rows.h"
 #include "app/ui/marks.h"
 #include "app/ui/texture_view.h"
 #include "app/ui/widget_rects.h"
@@ -140,7 +140,7 @@ void draw_resources_panel(PanelContext& context) {
     // The same room whether one is chosen or not, so that rows stay under the pointer; a volume's mips and slices take
     // more.
     float line = ImGui::GetFrameHeightWithSpacing();
-    int lines = 5 + (texture && texture->texture.mips > 1) + (texture && texture->texture.size.z > 1);
+    int lines = 9 + (texture && texture->texture.mips > 1) + (texture && texture->texture.size.z > 1);
     float below = buffer ? ImGui::GetContentRegionAvail().y * 0.5f : line * float(lines);
     float wanted =
         float(plan.resources.size() + 2) * ImGui::GetTextLineHeightWithSpacing() + ImGui::GetStyle().ScrollbarSize;

@@ -2,11 +2,13 @@
 
 #include "app/ui/marks.h"
 #include "app/ui/texture_view.h"
+#include "app/ui/viewed.h"
 #include "app/ui/widget_rects.h"
 
 #include <algorithm>
 #include <bit>
 #include <cfloat>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace bounce {
@@ -29,6 +31,10 @@ static bool draw_range(ViewerSettings& viewer) {
     changed |= ImGui::Checkbox("logarithmic", &viewer.logarithmic);
     note_widget("viewer.logarithmic");
     show_tooltip("Equal ratios are equal steps of brightness. From zero: six decades below the upper end.");
+    ImGui::SameLine();
+    changed |= ImGui::Checkbox("colours", &viewer.false_colour);
+    note_widget("viewer.false_colour");
+    show_tooltip("False colour: one number per texel, from black over blue, red and yellow to white.");
     if (viewer.automatic_range) return changed;
     label("");
     float range[2] = {viewer.low, viewer.high};
@@ -40,6 +46,33 @@ static bool draw_range(ViewerSettings& viewer) {
     note_widget("viewer.range");
     show_tooltip("The values that are black and white. Either may be the greater one. Ctrl + click to type.");
     return changed;
+}
+
+/// Of the values in the viewport over the range that they are shown with; heights are square roots of counts.
+static void draw_histogram(const PlanResource& resource) {
+    viewed().wants_histogram = true;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 size(std::max(ImGui::GetContentRegionAvail().x, 1.0f), ImGui::GetFontSize() * 4);
+    ImGui::InvisibleButton("histogram", size);
+    note_widget("viewer.histogram");
+    const Viewed& found = viewed();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg));
+    if (found.resource != resource.name() || found.histogram.empty()) return;
+    const auto count = float(found.histogram.size());
+    uint32_t most = 1;
+    for (uint32_t value : found.histogram)
+        most = std::max(most, value);
+    for (size_t i = 0; i < found.histogram.size(); ++i) {
+        const float height = size.y * std::sqrt(float(found.histogram[i]) / float(most));
+        list.AddRectFilled({at.x + size.x * float(i) / count, at.y + size.y - height},
+                           {at.x + size.x * float(i + 1) / count, at.y + size.y},
+                           ImGui::GetColorU32(ImGuiCol_PlotHistogram));
+    }
+    show_tooltip(
+        fmt::format("{:.5g} … {:.5g}: values in equal steps; heights are square roots of their number\n{} below, "
+                    "{} above",
+                    found.range.x, found.range.y, found.below, found.above));
 }
 
 void draw_viewer_settings(PanelContext& context, const PlanResource& resource) {
@@ -89,6 +122,7 @@ void draw_viewer_settings(PanelContext& context, const PlanResource& resource) {
         changed = true;
     }
     note_widget("viewer.reset");
+    if (context.ui.pinned == resource.name()) draw_histogram(resource);
     if (changed) context.ui.redraw();
 }
 

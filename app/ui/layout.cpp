@@ -7,7 +7,7 @@ namespace bounce {
 
 static constexpr float k_gap = 4; // between areas, and the width of the splitters
 
-Areas arrange(const LayoutState& layout, ImVec2 display, float scale, bool with_log) {
+Areas arrange(const LayoutState& layout, ImVec2 display, float scale) {
     Areas areas;
     float gap = std::round(k_gap * scale);
     float status = std::round(26 * scale);
@@ -23,10 +23,10 @@ Areas arrange(const LayoutState& layout, ImVec2 display, float scale, bool with_
     }
     float x0 = left > 0 ? left + gap : 0;
     float x1 = right > 0 ? display.x - right - gap : display.x;
-    float log = with_log ? std::min(std::round(layout.log_height * scale), height * 0.6f) : 0;
+    float bottom = layout.show_bottom ? std::min(std::round(layout.bottom_height * scale), height * 0.75f) : 0;
     areas.left = {{0, 0}, {left, height}};
-    areas.viewport = {{x0, 0}, {std::max(x1 - x0, 1.0f), std::max(height - (log > 0 ? log + gap : 0), 1.0f)}};
-    if (log > 0) areas.log = {{x0, height - log}, {x1 - x0, log}};
+    areas.viewport = {{x0, 0}, {std::max(x1 - x0, 1.0f), std::max(height - (bottom > 0 ? bottom + gap : 0), 1.0f)}};
+    if (bottom > 0) areas.bottom = {{x0, height - bottom}, {x1 - x0, bottom}};
     float upper = std::round(height * std::clamp(layout.right_split, 0.1f, 0.9f));
     areas.upper_right = {{display.x - right, 0}, {right, upper}};
     areas.lower_right = {{display.x - right, upper + gap}, {right, std::max(height - upper - gap, 1.0f)}};
@@ -74,10 +74,10 @@ bool drag_splitters(LayoutState& layout, const Areas& areas, float scale) {
                          false, dragged);
         if (moved != 0) layout.right_split = std::clamp((areas.upper_right.size.y + moved) / height, 0.1f, 0.9f);
     }
-    if (areas.log.visible()) {
-        float moved =
-            splitter("log", {areas.log.min.x, areas.log.min.y - gap}, {areas.log.size.x, gap}, false, dragged);
-        if (moved != 0) layout.log_height = std::clamp((areas.log.size.y - moved) / scale, 60.0f, 600.0f);
+    if (areas.bottom.visible()) {
+        float moved = splitter("bottom", {areas.bottom.min.x, areas.bottom.min.y - gap}, {areas.bottom.size.x, gap},
+                               false, dragged);
+        if (moved != 0) layout.bottom_height = std::clamp((areas.bottom.size.y - moved) / scale, 60.0f, 2000.0f);
     }
     ImGui::End();
     ImGui::PopStyleColor();

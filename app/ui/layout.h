@@ -1,5 +1,6 @@
 #pragma once
-// Where things are in the window: a column on each side, the viewport between them, the log under it, a status bar.
+// Where things are in the window: a column on each side, the viewport between them, a row of panels under it, a status
+// bar.
 
 #include "app/ui/window_state.h"
 
@@ -13,11 +14,11 @@ struct Area {
 };
 
 struct Areas {
-    Area left, upper_right, lower_right, viewport, log, status;
+    Area left, upper_right, lower_right, viewport, bottom, status;
 };
 
 /// Areas for a window of `display` screen coordinates. What does not fit shrinks: the viewport keeps a third.
-Areas arrange(const LayoutState& layout, ImVec2 display, float scale, bool with_log);
+Areas arrange(const LayoutState& layout, ImVec2 display, float scale);
 
 /// The bars between areas, which can be dragged. Returns true while one is.
 bool drag_splitters(LayoutState& layout, const Areas& areas, float scale);

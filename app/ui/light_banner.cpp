@@ -1,6 +1,8 @@
 #include "app/ui/light_banner.h"
 
 #include "app/omitted_light.h"
+#include "app/ui/edit.h"
+#include "app/ui/light_place.h"
 #include "app/ui/marks.h"
 #include "app/ui/open.h"
 #include "app/ui/widget_rects.h"
@@ -13,6 +15,15 @@
 
 namespace bounce {
 
+/// Whether a pass that needs this is skipped because the scene lacks the light that it carries.
+static bool lacks_source(const std::string& needs, const SceneFacts& facts) {
+    const auto asks = [&](const char* fact) { return needs.find(fact) != std::string::npos; };
+    if (asks("environment") && facts.environment) return false;
+    if (asks("emissive_materials") && facts.emissive_materials > 0) return false;
+    if (asks("environment") || asks("emissive_materials")) return true;
+    return (asks("lights") && facts.lights() == 0) || (asks("glossy_materials") && facts.glossy_materials == 0);
+}
+
 /// Parts of the graph's light that nothing makes in this plan, each with the reason of the pass that would.
 static std::vector<std::string> unmade_parts(const Session& session) {
     const Plan& plan = session.graph().plan();
@@ -23,7 +34,9 @@ static std::vector<std::string> unmade_parts(const Session& session) {
         // A pass that was switched off is no riddle; what the scene lacks makes no light either way.
         for (const PlanSkip& skip : plan.skipped) {
             const PassNode* node = session.graph().model().find_node(skip.id);
-            if (!node || !node->enabled || skip.reason.starts_with("the scene has no")) continue;
+            if (!node || !node->enabled || skip.reason.starts_with("the scene has no") ||
+                lacks_source(node->entry.needs, session.facts()))
+                continue;
             const auto& programs = node->programs;
             const bool makes = std::any_of(programs.begin(), programs.end(), [&](const auto& program) {
                 const auto& slots = program->slots();
@@ -91,6 +104,24 @@ void draw_light_banner(PanelContext& context, const Area& area) {
         if (ImGui::Button(("open " + better).c_str())) ask_for_graph(context, better);
         note_widget("banner.open");
         show_tooltip("A graph that leaves out no light of this shot.");
+    }
+    if (text == "this shot has no light") {
+        ImGui::SameLine();
+        if (ImGui::Button("add a headlight")) add_headlight(context);
+        note_widget("banner.headlight");
+        show_tooltip("A wide spot at the camera.");
+        ImGui::SameLine();
+        if (ImGui::Button("add a sky")) {
+            Session& session = context.session;
+            edit(context, "environment", session.shot().environment.radiance, glm::vec3(1),
+                 [&session, &ui = context.ui](const glm::vec3& value) {
+                     session.shot().environment.radiance = value;
+                     session.scene_edited();
+                     ui.redraw();
+                 });
+        }
+        note_widget("banner.sky");
+        show_tooltip("Light of radiance 1 from all around.");
     }
     ImGui::SameLine();
     if (ImGui::Button("hide")) hidden = text;

@@ -1,8 +1,11 @@
 #include "app/ui/open.h"
 
+#include "app/ui/captures.h"
+#include "app/ui/shot_writer.h"
 #include "app/ui/texture_view.h"
 #include "app/ui/work.h"
 #include "core/error.h"
+#include "core/image.h"
 #include "core/json_text.h"
 #include "core/paths.h"
 #include "scene/scene_formats.h"
@@ -106,11 +109,26 @@ void ask_for_graph(PanelContext& context, const std::string& name) {
     context.ui.window.ask([context, name]() mutable { open_graph(context, name); });
 }
 
+/// The present shot under that sky: a shot file of its own, beside other captures, which is opened.
+static void ask_for_sky(PanelContext& context, const std::string& map) {
+    context.ui.window.ask([context, map]() mutable {
+        const fs::path folder = context.ui.window.capture.folder.empty() ? "." : context.ui.window.capture.folder;
+        fs::create_directories(folder);
+        nlohmann::json root = nlohmann::json::parse(shot_text(context.session, context.ui.window.opened, folder));
+        root["environment"] = {
+            {"map", fs::weakly_canonical(map).lexically_relative(fs::weakly_canonical(fs::absolute(folder))).string()}};
+        const fs::path file = new_file(folder.string(), context.session.shot().name + "_sky", ".json");
+        write_file_atomically(file, json_dump(root, 2) + "\n");
+        open_shot(context, file.string(), true);
+    });
+}
+
 void ask_for_file(PanelContext& context, const std::string& path) {
+    if (fs::path(path).extension() == ".hdr") return ask_for_sky(context, path);
     if (scene_format_of(path)) return ask_for_shot(context, path);
     if (fs::path(path).extension() != ".json") {
         return context.ui.say("'" + path + "' cannot be opened: expected a scene (" + scene_extensions() +
-                                  "), or a shot or graph (.json)",
+                                  "), a shot or graph (.json), or a sky (.hdr)",
                               true);
     }
     try {

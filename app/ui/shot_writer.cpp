@@ -4,6 +4,8 @@
 #include "core/error.h"
 #include "core/image.h"
 #include "core/json_text.h"
+#include "core/paths.h"
+#include "core/scanner.h"
 #include "scene/find_scene.h"
 #include "scene/keyframes.h"
 
@@ -214,25 +216,39 @@ static std::string state_text(const PanelContext& context, const fs::path& folde
     }
 }
 
+static fs::path write_shot(PanelContext& context, const fs::path& path) {
+    CaptureState& capture = context.ui.window.capture;
+    std::string text;
+    try {
+        text = shot_text(context.session, context.ui.window.opened, path.parent_path());
+    } catch (const nlohmann::json::exception& problem) {
+        throw Error("'" + context.session.shot().path.string() +
+                    "' is not the shot that was opened any more: " + problem.what());
+    }
+    write_file_atomically(path, text);
+    capture.saved_shot = path.lexically_normal().string();
+    capture.saved_state = text;
+    context.ui.say("saved " + capture.saved_shot);
+    return path;
+}
+
 fs::path save_shot(PanelContext& context) {
     CaptureState& capture = context.ui.window.capture;
     fs::path folder = capture.folder.empty() ? fs::path(".") : fs::path(capture.folder);
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) throw Error("cannot create the folder '" + folder.string() + "': " + error.message());
-    std::string text;
-    try {
-        text = shot_text(context.session, context.ui.window.opened, folder);
-    } catch (const nlohmann::json::exception& problem) {
-        throw Error("'" + context.session.shot().path.string() +
-                    "' is not the shot that was opened any more: " + problem.what());
-    }
-    fs::path path = new_file(folder.string(), context.session.shot().name + "_view", ".json");
-    write_file_atomically(path, text);
-    capture.saved_shot = path.lexically_normal().string();
-    capture.saved_state = text;
-    context.ui.say("saved " + capture.saved_shot);
-    return path;
+    return write_shot(context, new_file(folder.string(), context.session.shot().name + "_view", ".json"));
+}
+
+fs::path save_shot_in_list(PanelContext& context, const std::string& name) {
+    const auto good = [](char c) { return is_word_character(c) || c == '-'; };
+    if (name.empty() || name.size() > 100 || !std::all_of(name.begin(), name.end(), good))
+        throw Error("invalid name '" + name + "' of a shot: expected letters, digits and underscores");
+    const fs::path path = assets_folder() / "shots" / (name + ".json");
+    std::error_code ignored;
+    if (fs::exists(path, ignored)) throw Error("'" + path.string() + "' is there already: take another name");
+    return write_shot(context, path);
 }
 
 /// For a shell: quoted where a name needs it.

@@ -22,6 +22,10 @@ std::string unsaved_edits(const Session& session, const SceneBaseline& opened);
 /// Writes a new shot file into the capture folder and remembers it. Throws Error.
 std::filesystem::path save_shot(PanelContext& context);
 
+/// The same as assets/shots/NAME.json, where the list of shots has it. Throws Error also for a bad name and a file that
+/// is there already.
+std::filesystem::path save_shot_in_list(PanelContext& context, const std::string& name);
+
 /// The command line that makes the picture without the window. Empty while it would not: then the shot must be saved
 /// first.
 std::string reproducing_command(const PanelContext& context);

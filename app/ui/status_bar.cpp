@@ -98,7 +98,7 @@ void draw_status_bar(PanelContext& context, const Area& area, const Capabilities
         ImGui::TextColored(ui.notice_is_error ? k_error_colour : k_good_colour, "%s", line.c_str());
         ImGui::PopClipRect();
         help(ui.notice.c_str());
-        if (ImGui::IsItemClicked()) ui.show_log = !ui.show_log;
+        if (ImGui::IsItemClicked()) toggle_bottom(ui.window, "Log");
     }
     ImGui::SameLine(area.size.x - keys);
     if (ImGui::SmallButton("? keys")) ui.show_keys = !ui.show_keys;

@@ -125,6 +125,7 @@ void TextureView::bind_source(const Program& program, const GpuTexture& source, 
     set_constant(program, "channel", settings.channel);
     set_constant(program, "channels", format_by_enum(source.desc().format).channels);
     set_constant(program, "value_scale", scale_);
+    set_constant(program, "logarithmic", int(settings.logarithmic));
 }
 
 void TextureView::find_range(const GpuTexture& source, const ViewerSettings& settings) {
@@ -151,7 +152,7 @@ const GpuTexture& TextureView::draw(const GpuTexture& source, const ViewerSettin
     find_range(source, settings);
     const Program& viewer = program("app/texture_view.comp", source.desc());
     bind_source(viewer, source, settings);
-    set_constant(viewer, "logarithmic", int(settings.logarithmic));
+    set_constant(viewer, "false_colour", int(settings.false_colour));
     set_constant(viewer, "encode_srgb", int(settings.encode_srgb));
     set_constant(viewer, "mark_non_finite", int(settings.mark_non_finite));
     glBindImageTexture(0, picture_.id(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA8);
@@ -160,6 +161,26 @@ const GpuTexture& TextureView::draw(const GpuTexture& source, const ViewerSettin
     glBindSampler(0, 0);
     glUseProgram(0);
     return picture_;
+}
+
+std::vector<uint32_t> TextureView::histogram(const GpuTexture& source, const ViewerSettings& wanted) {
+    const ViewerSettings settings = clamp_view(wanted, source.desc());
+    std::vector<uint32_t> counts(k_histogram_steps + 2, 0);
+    const uint64_t bytes = counts.size() * sizeof(uint32_t);
+    if (!histogram_) histogram_ = Buffer(bytes, nullptr, "texture view histogram");
+    histogram_.update(0, bytes, counts.data());
+    const Program& counter = program("app/texture_histogram.comp", source.desc());
+    bind_source(counter, source, settings);
+    for (const BlockInfo& block : counter.interface().storage_blocks)
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block.binding,
+                         block.name == "viewed_histogram" ? histogram_.id() : range_.id());
+    dispatch(counter, mip_size(source.desc(), settings.mip));
+    memory_barrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    histogram_.read(0, bytes, counts.data());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, 0);
+    glBindSampler(0, 0);
+    glUseProgram(0);
+    return counts;
 }
 
 glm::vec2 TextureView::range() const {

@@ -25,6 +25,8 @@ ViewerSettings default_view(const std::string& resource, const TextureDesc& desc
 /// Mip, layer and channel brought to what the texture has.
 ViewerSettings clamp_view(ViewerSettings settings, const TextureDesc& desc);
 
+inline constexpr int k_histogram_steps = 64;
+
 class TextureView {
   public:
     TextureView();
@@ -40,6 +42,10 @@ class TextureView {
     /// How many of its texels were not finite, in what was shown. Known with an automatic range only. Stalls.
     uint32_t non_finite() const;
 
+    /// How many texels' values lie in each of k_histogram_steps equal steps of the last picture's range, as its curve
+    /// has them, then below and above it; of several channels, their luminance. Stalls.
+    std::vector<uint32_t> histogram(const GpuTexture& source, const ViewerSettings& settings);
+
   private:
     Program& program(const char* file, const TextureDesc& desc);
     void bind_source(const Program& program, const GpuTexture& source, const ViewerSettings& settings) const;
@@ -47,7 +53,7 @@ class TextureView {
 
     std::map<std::string, std::unique_ptr<Program>> programs_; ///< by file, kind and class of the texture
     Sampler sampler_;
-    Buffer range_;
+    Buffer range_, histogram_;
     GpuTexture picture_;
     float scale_ = 1;
 };

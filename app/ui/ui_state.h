@@ -23,6 +23,8 @@ struct ViewerSettings {
     bool encode_srgb = true;     ///< linear values are encoded for the display
     bool mark_non_finite = true; ///< NaN magenta, infinities yellow
     bool logarithmic = false;    ///< equal ratios between low and high are equal steps
+    bool false_colour = false;   ///< a single value is a colour of a map, from dark blue over green to yellow
+    float over_picture = 1;      ///< share of it, over the final picture where both have the same size
     bool operator==(const ViewerSettings&) const = default;
 };
 
@@ -50,6 +52,10 @@ struct FrameTime {
 
 class LiveComparison;
 struct ConesState;
+struct NodesState;
+class ParameterSweep;
+struct Snapshots;
+struct Timeline;
 class StabilityRun;
 
 struct UiState {
@@ -71,6 +77,7 @@ struct UiState {
     glm::ivec2 cursor_pixel{-1}; ///< of the picture, row 0 at the top; −1 outside
     glm::vec2 cursor_uv{-1};     ///< the same place as a share of width and height, for resources of other sizes
     bool cursor_locked = false;  ///< the inspector keeps its pixel
+    int chosen_light = -1;       ///< that is dragged in the picture; −1: none
 
     std::vector<FrameTime> frame_times; ///< of the last frames, newest last
     std::string notice;                 ///< one line for the status bar
@@ -81,10 +88,14 @@ struct UiState {
 
     std::shared_ptr<LiveComparison> comparison; ///< made when its panel is first opened
     std::shared_ptr<ConesState> cones;          ///< likewise
+    std::shared_ptr<NodesState> nodes;          ///< likewise
+    std::shared_ptr<Snapshots> snapshots;       ///< likewise
+    std::shared_ptr<Timeline> timeline;         ///< made with the first frame
+    std::shared_ptr<ParameterSweep> sweep;      ///< made when the first is asked for
     std::shared_ptr<StabilityRun> stability;    ///< likewise
     bool redraw_panels = false; ///< set each frame by panels that move by themselves (progress, flicker)
 
-    bool show_keys = false, show_log = false;
+    bool show_keys = false;
     WindowState window;
 
     /// Something changed: render again.

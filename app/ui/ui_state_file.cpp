@@ -82,7 +82,9 @@ WindowState state_from(const json& root) {
     get_number(root, "left", state.layout.left, 150, 2000);
     get_number(root, "right", state.layout.right, 150, 2000);
     get_number(root, "right_split", state.layout.right_split, 0.1f, 0.9f);
-    get_number(root, "log_height", state.layout.log_height, 60, 2000);
+    get_number(root, "bottom_height", state.layout.bottom_height, 60, 2000);
+    get(root, "show_bottom", state.layout.show_bottom);
+    get(root, "bottom_tab", state.bottom_tab);
     get(root, "show_left", state.layout.show_left);
     get(root, "show_right", state.layout.show_right);
     get(root, "fit", state.sizing.fit);
@@ -97,6 +99,8 @@ WindowState state_from(const json& root) {
     get(root, "shot", state.shot);
     get(root, "graph", state.graph);
     get_number(root, "fly_speed", state.fly_speed, 0.001f, 1000);
+    get(root, "closed_passes", state.closed_passes);
+    get(root, "coarse_while_moving", state.coarse_while_moving);
     get(root, "capture_folder", state.capture.folder);
     get(root, "capture_frames", state.capture.frames);
     if (root.contains("bookmarks")) {
@@ -130,7 +134,9 @@ std::string window_state_text(const WindowState& state) {
     root["left"] = state.layout.left;
     root["right"] = state.layout.right;
     root["right_split"] = state.layout.right_split;
-    root["log_height"] = state.layout.log_height;
+    root["bottom_height"] = state.layout.bottom_height;
+    root["show_bottom"] = state.layout.show_bottom;
+    root["bottom_tab"] = state.bottom_tab;
     root["show_left"] = state.layout.show_left;
     root["show_right"] = state.layout.show_right;
     root["fit"] = state.sizing.fit;
@@ -145,6 +151,8 @@ std::string window_state_text(const WindowState& state) {
     root["shot"] = state.shot;
     root["graph"] = state.graph;
     root["fly_speed"] = state.fly_speed;
+    root["closed_passes"] = state.closed_passes;
+    root["coarse_while_moving"] = state.coarse_while_moving;
     root["capture_folder"] = state.capture.folder;
     root["capture_frames"] = state.capture.frames;
     root["bookmarks"] = json::array();

@@ -2,7 +2,10 @@
 
 #include "app/hosts/window.h"
 #include "app/ui/live_comparison.h"
+#include "app/ui/snapshots.h"
 #include "app/ui/style.h"
+#include "app/ui/viewed.h"
+#include "app/ui/views_menu.h"
 #include "app/ui/widget_rects.h"
 #include "core/problem.h"
 
@@ -44,6 +47,8 @@ const GpuTexture* Viewport::texture_to_show(PanelContext& context) {
         return nullptr;
     }
     bool current = view_ && settings == shown_ && drawn_frame_ == graph.frames() && drawn_texture_ == source->id();
+    const bool counted = !viewed().wants_histogram || !viewed().histogram.empty();
+    if (current && !counted) note_viewed(*source, settings);
     if (current) return failure_.empty() ? &view_->picture() : nullptr;
     shown_ = settings;
     drawn_frame_ = graph.frames();
@@ -51,12 +56,27 @@ const GpuTexture* Viewport::texture_to_show(PanelContext& context) {
     try {
         if (!view_) view_ = std::make_unique<TextureView>();
         view_->draw(*source, settings, context.session.value_scale(settings.resource));
+        note_viewed(*source, settings);
         failure_.clear();
         return &view_->picture();
     } catch (const std::exception& problem) {
         failure_ = problem_text(problem);
         return nullptr;
     }
+}
+
+/// For the legend and the histogram of what is shown; the final picture has neither.
+void Viewport::note_viewed(const GpuTexture& source, const ViewerSettings& settings) {
+    Viewed& found = viewed();
+    found.resource = settings.resource;
+    found.histogram.clear();
+    found.range = {settings.low, settings.high};
+    if (settings.resource == "out.display") return;
+    if (settings.automatic_range) found.range = view_->range();
+    if (!found.wants_histogram) return;
+    found.histogram = view_->histogram(source, settings);
+    found.above = found.histogram.back(), found.histogram.pop_back();
+    found.below = found.histogram.back(), found.histogram.pop_back();
 }
 
 Area Viewport::place_picture(const PanelContext& context, const Area& area, glm::vec2 texels) const {
@@ -101,9 +121,10 @@ void Viewport::follow_pointer(PanelContext& context, const Area& picture, bool h
     if (inside) ui.cursor_pixel = glm::min(glm::ivec2(glm::floor(uv * glm::vec2(size))), size - 1);
 }
 
-void Viewport::move_camera(PanelContext& context, const Area& picture, bool hovered, bool active, Window& window) {
+void Viewport::move_camera(PanelContext& context, const Area& picture, bool hovered, bool active, bool pressed,
+                           Window& window) {
     const ImGuiIO& io = ImGui::GetIO();
-    if (ImGui::IsItemActivated()) {
+    if (pressed) {
         for (int button : {0, 1, 2}) {
             if (io.MouseDown[button]) drag_button_ = button;
         }
@@ -116,7 +137,7 @@ void Viewport::move_camera(PanelContext& context, const Area& picture, bool hove
     input.slide = drag_button_ == 2;
     glm::vec2 scale = glm::vec2(context.session.size()) / glm::vec2(picture.size.x, picture.size.y);
     // The way to where a drag begins is no part of it.
-    if (!ImGui::IsItemActivated()) input.moved = glm::vec2(io.MouseDelta.x, io.MouseDelta.y) * scale;
+    if (!pressed) input.moved = glm::vec2(io.MouseDelta.x, io.MouseDelta.y) * scale;
     input.pixel = (glm::vec2(io.MousePos.x, io.MousePos.y) - glm::vec2(picture.min.x, picture.min.y)) * scale;
     input.wheel = hovered || active ? io.MouseWheel : 0;
     if (io.KeyCtrl) input.wheel = 0;
@@ -131,6 +152,38 @@ void Viewport::move_camera(PanelContext& context, const Area& picture, bool hove
     bool flying = input.forward || input.back || input.left || input.right || input.up || input.down;
     // The next frame goes on from here without waiting for an event.
     busy_ = control_.update(context, input) || flying;
+}
+
+/// Two snapshots, or one and the present picture, in the place of it. Returns whether that was drawn.
+bool Viewport::draw_snapshots(PanelContext& context, const Area& picture) {
+    Snapshots* snapshots = context.ui.snapshots.get();
+    const bool plain = context.ui.hovered.empty() && context.ui.pinned.empty();
+    if (!snapshots || snapshots->view == SnapshotView::off || !plain) return false;
+    const auto side = [&](int index) {
+        const GpuTexture* frozen = snapshots->texture(index);
+        return frozen ? frozen : context.session.graph().texture("out.display");
+    };
+    const auto name = [&](int index) {
+        return index < 0 ? std::string("the picture now") : snapshots->all[size_t(index)].name;
+    };
+    const GpuTexture *left = side(snapshots->left), *right = side(snapshots->right);
+    if (!left || !right) return false;
+    float share = snapshots->view == SnapshotView::one ? 1 : snapshots->wipe;
+    if (snapshots->view == SnapshotView::flicker) share = std::fmod(ImGui::GetTime(), 1.0) < 0.5 ? 1.0f : 0.0f;
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const float middle = picture.min.x + share * picture.size.x, bottom = picture.min.y + picture.size.y;
+    const auto image = [](const GpuTexture& of) {
+        return reinterpret_cast<ImTextureID>(static_cast<intptr_t>(of.id()));
+    };
+    list->AddImage(image(*left), picture.min, {middle, bottom}, {0, 0}, {share, 1});
+    list->AddImage(image(*right), {middle, picture.min.y}, {picture.min.x + picture.size.x, bottom}, {share, 0},
+                   {1, 1});
+    const bool both = snapshots->view == SnapshotView::wipe;
+    if (both) list->AddLine({middle, picture.min.y}, {middle, bottom}, IM_COL32(255, 255, 255, 160));
+    caption_ = share >= 1   ? name(snapshots->left)
+               : share <= 0 ? name(snapshots->right)
+                            : name(snapshots->left) + "  |  " + name(snapshots->right);
+    return true;
 }
 
 static void label(ImVec2 at, const std::string& text, ImVec4 colour) {
@@ -163,7 +216,7 @@ void Viewport::overlay(PanelContext& context, const Area& area, const Area& pict
     if (ui.window.capture.recording) {
         std::string recording = fmt::format("● recording  {}", ui.window.capture.written);
         ImVec2 size = ImGui::CalcTextSize(recording.c_str());
-        label({area.min.x + area.size.x - size.x - 3 * margin, area.min.y + margin}, recording, k_error_colour);
+        label({area.min.x + 0.5f * (area.size.x - size.x), area.min.y + margin}, recording, k_error_colour);
     }
     glm::ivec2 size = context.session.size();
     auto on_screen = [&](glm::vec2 pixel) {
@@ -206,12 +259,22 @@ void Viewport::draw(PanelContext& context, const Area& area, Window& window) {
     if (ImGui::IsItemActivated()) ImGui::SetWindowFocus();
     follow_pointer(context, picture, hovered);
     if (hovered && ImGui::GetIO().KeyCtrl && ImGui::GetIO().MouseWheel != 0) zoom(context, area, picture);
-    move_camera(context, picture, hovered, active, window);
+    const bool pressed = ImGui::IsItemActivated();
 
     ImDrawList* list = ImGui::GetWindowDrawList();
-    if (texture) {
-        auto id = reinterpret_cast<ImTextureID>(static_cast<intptr_t>(texture->id()));
-        list->AddImage(id, picture.min, {picture.min.x + picture.size.x, picture.min.y + picture.size.y});
+    if (draw_snapshots(context, picture)) {
+        shown_ = {};
+        drawn_frame_ = ~0ull;
+    } else if (texture) {
+        const ImVec2 end{picture.min.x + picture.size.x, picture.min.y + picture.size.y};
+        const auto image = [](const GpuTexture& of) {
+            return reinterpret_cast<ImTextureID>(static_cast<intptr_t>(of.id()));
+        };
+        const GpuTexture* final_picture = context.session.graph().texture("out.display");
+        const bool over = shown_.over_picture < 1 && shown_.resource != "out.display" && final_picture;
+        if (over) list->AddImage(image(*final_picture), picture.min, end);
+        list->AddImage(image(*texture), picture.min, end, {0, 0}, {1, 1},
+                       IM_COL32(255, 255, 255, over ? int(255 * shown_.over_picture) : 255));
     } else {
         ImGui::SetCursorScreenPos({area.min.x + 20, area.min.y + 20});
         ImGui::PushTextWrapPos(area.size.x - 20);
@@ -220,7 +283,10 @@ void Viewport::draw(PanelContext& context, const Area& area, Window& window) {
     }
     note_rectangle("viewport", picture.min.x, picture.min.y, picture.min.x + picture.size.x,
                    picture.min.y + picture.size.y);
+    const bool taken = gizmo_.draw(context, picture, hovered, pressed, active);
+    move_camera(context, picture, hovered && !taken, active && !taken, pressed && !taken, window);
     overlay(context, area, picture);
+    if (caption_.empty()) draw_legend(context, area, shown_);
     ImGui::End();
     ImGui::PopStyleColor();
     ImGui::PopStyleVar();

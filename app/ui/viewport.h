@@ -3,6 +3,7 @@
 
 #include "app/ui/camera_control.h"
 #include "app/ui/layout.h"
+#include "app/ui/light_gizmo.h"
 #include "app/ui/texture_view.h"
 
 namespace bounce {
@@ -21,10 +22,13 @@ class Viewport {
 
   private:
     const GpuTexture* texture_to_show(PanelContext& context);
+    bool draw_snapshots(PanelContext& context, const Area& picture);
+    void note_viewed(const GpuTexture& source, const ViewerSettings& settings);
     Area place_picture(const PanelContext& context, const Area& area, glm::vec2 texels) const;
     void zoom(PanelContext& context, const Area& area, const Area& picture) const;
     void follow_pointer(PanelContext& context, const Area& picture, bool hovered) const;
-    void move_camera(PanelContext& context, const Area& picture, bool hovered, bool active, Window& window);
+    void move_camera(PanelContext& context, const Area& picture, bool hovered, bool active, bool pressed,
+                     Window& window);
     void overlay(PanelContext& context, const Area& area, const Area& picture) const;
 
     std::unique_ptr<TextureView> view_;
@@ -34,6 +38,7 @@ class Viewport {
     uint64_t drawn_frame_ = ~0ull;
     GLuint drawn_texture_ = 0;
     CameraControl control_;
+    LightGizmo gizmo_;
     int drag_button_ = -1; ///< of ImGui: 0 left, 1 right, 2 middle
     bool busy_ = false;
 };

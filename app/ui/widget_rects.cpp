@@ -1,7 +1,11 @@
 #include "app/ui/widget_rects.h"
 
+#include "app/ui/light_place.h"
 #include "app/ui/live_comparison.h"
 #include "app/ui/settings_key.h"
+#include "app/ui/snapshots.h"
+#include "app/ui/timeline.h"
+#include "app/ui/viewed.h"
 #include "core/json_text.h"
 #include "core/log.h"
 
@@ -66,10 +70,13 @@ void end_widget_frame(const PanelContext& context) {
     }
     json["filter"] = context.ui.parameter_filter;
     json["lights"] = nlohmann::json::array();
-    for (const Light& light : session.shot().scene.lights) {
-        if (json["lights"].size() == 8) break;
+    for (size_t i = 0; i < session.shot().scene.lights.size() && i < 8; ++i) {
+        const Light& light = session.shot().scene.lights[i];
+        const LightPlace place = place_of_light(session, i).value_or(LightPlace());
         json["lights"].push_back({{"intensity", {light.intensity.r, light.intensity.g, light.intensity.b}},
                                   {"outer_cone", light.outer_cone},
+                                  {"position", {place.position.x, place.position.y, place.position.z}},
+                                  {"direction", {place.direction.x, place.direction.y, place.direction.z}},
                                   {"enabled", light.enabled}});
     }
     json["times"] = {{"passes_ms", whole_frame_ms(session.graph())},
@@ -80,6 +87,25 @@ void end_widget_frame(const PanelContext& context) {
         json["times"]["runs"][pass.id] = timing.samples;
         json["times"]["ms"][pass.id] = timing.median;
     }
+    json["viewed"] = {{"resource", viewed().resource},
+                      {"range", {viewed().range.x, viewed().range.y}},
+                      {"histogram", viewed().histogram},
+                      {"false_colour", context.ui.viewer.false_colour}};
+    json["bottom"] = context.ui.window.layout.show_bottom ? context.ui.window.bottom_tab : "";
+    if (const Timeline* timeline = context.ui.timeline.get(); timeline && timeline->shown()) {
+        const TimelineFrame& frame = *timeline->shown();
+        json["timeline"] = {{"frames", timeline->frames.size()},
+                            {"pinned", timeline->pinned},
+                            {"number", frame.number},
+                            {"passes_ms", frame.passes_ms()},
+                            {"bytes", frame.bytes},
+                            {"change", frame.change},
+                            {"error", frame.error}};
+    }
+    json["snapshots"] = nlohmann::json::array();
+    if (context.ui.snapshots)
+        for (const Snapshot& snapshot : context.ui.snapshots->all)
+            json["snapshots"].push_back(snapshot.name);
     if (const LiveComparison* comparison = context.ui.comparison.get()) {
         json["comparison"] = {{"view", int(comparison->view)},
                               {"split", comparison->split},

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,8 @@ namespace bounce {
 struct LayoutState {
     float left = 290, right = 350;
     float right_split = 0.47f; ///< share of the right column's height that its upper half has
-    float log_height = 130;
-    bool show_left = true, show_right = true;
+    float bottom_height = 260;
+    bool show_left = true, show_right = true, show_bottom = false;
 };
 
 /// How large the picture is rendered.
@@ -66,10 +67,12 @@ struct WindowState {
     glm::ivec2 size{1280, 720}; ///< of the window, in screen coordinates
     bool maximized = false;
     float interface_scale = 1; ///< a person's factor on top of the display's
-    std::string left_tab = "Scene", upper_tab = "Graph", lower_tab = "Parameters";
+    std::string left_tab = "Scene", upper_tab = "Graph", lower_tab = "Parameters", bottom_tab = "Nodes";
     std::string shot, graph; ///< of the last run
     std::vector<Bookmark> bookmarks;
-    float fly_speed = 1; ///< 1: the scene's diagonal in ten seconds
+    float fly_speed = 1;                 ///< 1: the scene's diagonal in ten seconds
+    std::set<std::string> closed_passes; ///< whose parameters are not shown
+    bool coarse_while_moving = true;     ///< where frames are slow, fewer pixels are rendered while something moves
     CaptureState capture;
     UnsavedWork work;
 
@@ -84,5 +87,11 @@ struct WindowState {
     /// panels are drawing.
     void ask(std::function<void()> action) { later.push_back(std::move(action)); }
 };
+
+/// Shows that tab below the picture, or hides the row that it is the front of.
+inline void toggle_bottom(WindowState& window, const std::string& tab) {
+    window.layout.show_bottom = !window.layout.show_bottom || window.bottom_tab != tab;
+    if (window.layout.show_bottom) window.select_tab = tab;
+}
 
 } // namespace bounce

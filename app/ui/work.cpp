@@ -44,8 +44,10 @@ Vector vector_from(const json& value) {
     return v;
 }
 
-json light_json(const Light& light, const Node* node) {
+json light_json(const Light& light, const Node* node, const Scene& scene) {
     json out{{"name", light.name},
+             {"type", int(light.type)},
+             {"node", node ? node - scene.nodes.data() : -1},
              {"intensity", vector_json(light.intensity)},
              {"cones", {light.inner_cone, light.outer_cone}},
              {"radius", light.radius},
@@ -73,6 +75,32 @@ void set_light(const json& from, Light& light, Node* node) {
     node->rotation = glm::normalize(glm::dquat(r.x, r.y, r.z, r.w));
     node->scale = vector_from<glm::dvec3>(from.at("scale"));
     node->has_matrix = false;
+}
+
+/// Lights that came or went: they are made anew, those of the file at their nodes, others at nodes of their own.
+void place_lights(const json& lights, Scene& scene) {
+    for (Node& node : scene.nodes)
+        node.light = -1;
+    const int known = int(scene.nodes.size());
+    scene.lights.clear();
+    for (const json& from : lights) {
+        Light light;
+        light.name = from.at("name").get<std::string>();
+        const int type = from.at("type").get<int>(), at = from.at("node").get<int>();
+        if (type < 0 || type > int(LightType::directional)) throw Error("a light's type is unknown");
+        light.type = LightType(type);
+        if (at >= known) scene.nodes.emplace_back().name = light.name;
+        if (at >= 0) scene.nodes[size_t(std::min(at, int(scene.nodes.size()) - 1))].light = int(scene.lights.size());
+        scene.lights.push_back(light);
+    }
+}
+
+/// Whether a light came or went, by their names.
+bool are_others(const json& lights, const Scene& scene) {
+    if (lights.size() != scene.lights.size()) return true;
+    for (size_t i = 0; i < lights.size(); ++i)
+        if (lights[i].at("name") != scene.lights[i].name && lights[i].contains("node")) return true;
+    return false;
 }
 
 json material_json(const Material& material) {
@@ -108,8 +136,9 @@ json shot_work(Session& session, const SceneBaseline& opened) {
                           {"vfov", camera.vfov}};
     }
     if (edited_lights(shot.scene, opened) > 0) {
+        work["lights"] = json::array();
         for (size_t i = 0; i < shot.scene.lights.size(); ++i)
-            work["lights"].push_back(light_json(shot.scene.lights[i], node_of_light(shot.scene, i)));
+            work["lights"].push_back(light_json(shot.scene.lights[i], node_of_light(shot.scene, i), shot.scene));
     }
     if (edited_materials(shot.scene, opened) > 0) {
         for (const Material& material : shot.scene.materials)
@@ -139,7 +168,7 @@ void set_shot_work(Session& session, const json& work) {
     std::optional<Camera> camera;
     if (work.contains("camera")) camera = camera_from(work.at("camera"), session.camera());
     const json lights = work.value("lights", json::array()), materials = work.value("materials", json::array());
-    if (!lights.empty() && lights.size() != scene.lights.size()) throw Error("its lights are others");
+    if (work.contains("lights") && are_others(lights, scene)) place_lights(lights, scene);
     for (size_t i = 0; i < lights.size(); ++i)
         set_light(lights[i], scene.lights[i], node_of_light(scene, i));
     if (!materials.empty() && materials.size() != scene.materials.size()) throw Error("its materials are others");

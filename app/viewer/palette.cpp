@@ -1,10 +1,12 @@
 #include "app/viewer/palette.h"
 
+#include "app/debug_views.h"
 #include "app/panels/parameter_edit.h"
 #include "app/ui/keys.h"
 #include "app/ui/marks.h"
 #include "app/ui/open.h"
 #include "app/ui/texture_view.h"
+#include "app/ui/views_menu.h"
 #include "app/ui/widget_rects.h"
 #include "core/text.h"
 
@@ -47,6 +49,11 @@ std::vector<PaletteEntry> palette_entries(const PanelContext& context,
                                ui.parameter_filter = name;
                            }});
     }
+    for (const DebugView& view :
+         debug_views(context.session.graph().model(), context.session.facts(), context.session.size()))
+        entries.push_back({"view", view.name, view.about, [context = PanelContext(context), view]() mutable {
+                               ask_for_view(context, view.resource, view.pass);
+                           }});
     for (const PlanResource& resource : context.session.graph().plan().resources) {
         if (resource.is_buffer()) continue;
         entries.push_back({"view", resource.name(), "", [&ui, &session = context.session, name = resource.name()] {

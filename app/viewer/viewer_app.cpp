@@ -53,6 +53,8 @@ ViewerApp::~ViewerApp() {
     viewport_.release_gpu();
     ui_.comparison.reset();
     ui_.cones.reset();
+    ui_.nodes.reset();
+    ui_.snapshots.reset();
     session_.reset();
 }
 

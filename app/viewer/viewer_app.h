@@ -50,6 +50,9 @@ class ViewerApp {
     bool render_if_wanted();
     bool time_to_advance();
     void fit_picture();
+    float motion_share(double now);
+    void follow_camera(double now);
+    void note_camera();
     void render();
     void tell_problems();
     void recover_from_reset();
@@ -96,6 +99,13 @@ class ViewerApp {
     double next_poll_ = 0, next_play_ = 0;
     glm::ivec2 fitting_{0}; ///< a size that the picture is to have, once it has stayed so
     double fitting_since_ = 0;
+    float motion_share_ = 1; ///< of the width: less while something moves on a slow machine
+    float whole_ms_ = 0;     ///< of the last frame at the whole size in which nothing was planned
+    double moved_at_ = -1;   ///< when something moved last
+
+    std::optional<Camera> rested_camera_; ///< that undo goes back to; empty: the shot's
+    std::string rested_shot_;             ///< of which it is
+    double camera_moved_at_ = 0;          ///< 0: it is at rest
     int rendered_ = 0;
     std::string settings_;     ///< of the last frame
     uint64_t timed_plans_ = 0; ///< Graph::plans() then

@@ -2,6 +2,7 @@
 #include "app/ui/captures.h"
 #include "app/ui/open.h"
 #include "app/ui/shot_writer.h"
+#include "app/ui/snapshots.h"
 #include "app/viewer/viewer_app.h"
 
 #include <algorithm>
@@ -99,6 +100,13 @@ void ViewerApp::handle_camera(KeyCommand command, const std::string& chord) {
 
 void ViewerApp::handle_files(KeyCommand command) {
     PanelContext panels = context();
+    const bool of_the_picture = command == KeyCommand::capture_png || command == KeyCommand::capture_exr ||
+                                command == KeyCommand::save_shot || command == KeyCommand::snapshot;
+    if (of_the_picture && motion_share_ < 1) {
+        moved_at_ = -1e9; // it rests: what is kept has all pixels
+        fit_picture();
+        render();
+    }
     switch (command) {
     case KeyCommand::capture_png:
         capture_picture(panels, ".png");
@@ -108,6 +116,9 @@ void ViewerApp::handle_files(KeyCommand command) {
         break;
     case KeyCommand::record:
         ui_.window.capture.recording ? stop_recording(panels) : start_recording(panels);
+        break;
+    case KeyCommand::snapshot:
+        take_snapshot(panels);
         break;
     case KeyCommand::save_shot:
         save_shot(panels);
@@ -133,7 +144,13 @@ void ViewerApp::handle_window(KeyCommand command) {
         palette_.open(palette_entries(context(), [this](const std::string& chord) { run_command({chord}); }));
         break;
     case KeyCommand::show_log:
-        ui_.show_log = !ui_.show_log;
+        toggle_bottom(ui_.window, "Log");
+        break;
+    case KeyCommand::show_timeline:
+        toggle_bottom(ui_.window, "Over time");
+        break;
+    case KeyCommand::show_nodes:
+        toggle_bottom(ui_.window, "Nodes");
         break;
     case KeyCommand::show_left:
         ui_.window.layout.show_left = !ui_.window.layout.show_left;
@@ -154,6 +171,7 @@ void ViewerApp::handle_window(KeyCommand command) {
         window_->close();
         break;
     case KeyCommand::undo:
+        note_camera(); // also one that has not come to rest
         ui_.say(undo_.next_undo().empty() ? "nothing to undo" : "undone: " + undo_.next_undo());
         undo_.undo();
         ui_.redraw();

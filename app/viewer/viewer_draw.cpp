@@ -6,6 +6,9 @@
 #include "app/ui/light_banner.h"
 #include "app/ui/status_bar.h"
 #include "app/ui/style.h"
+#include "app/ui/timeline.h"
+#include "app/ui/viewed.h"
+#include "app/ui/views_menu.h"
 #include "app/ui/widget_rects.h"
 #include "app/viewer/viewer_app.h"
 #include "core/problem.h"
@@ -26,13 +29,17 @@ struct Tab {
 const std::vector<Tab> k_left = {{"Scene", draw_scene_panel},
                                  {"Camera", draw_camera_panel},
                                  {"Compare", draw_compare_panel},
-                                 {"Capture", draw_capture_panel}};
+                                 {"Capture", draw_capture_panel},
+                                 {"Snapshots", draw_snapshots_panel}};
 const std::vector<Tab> k_upper = {
     {"Graph", draw_graph_panel}, {"Resources", draw_resources_panel}, {"Shaders", draw_shaders_panel}};
 const std::vector<Tab> k_lower = {{"Parameters", draw_parameters_panel},
                                   {"Pixel", draw_inspector_panel},
                                   {"Cones", draw_cones_panel},
                                   {"Stability", draw_stability_panel}};
+
+const std::vector<Tab> k_bottom = {
+    {"Nodes", draw_nodes_panel}, {"Over time", draw_time_panel}, {"Log", draw_log_panel}};
 
 /// A panel in which something goes wrong says so, and the frame goes on.
 void draw_panel(const Tab& tab, PanelContext& context) {
@@ -98,11 +105,11 @@ void ViewerApp::draw(bool shown) {
     ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGuiStack stack;
     attempt([&] {
-        Areas areas = arrange(ui_.window.layout, display, scale, ui_.show_log);
-        if (drag_splitters(ui_.window.layout, areas, scale))
-            areas = arrange(ui_.window.layout, display, scale, ui_.show_log);
+        Areas areas = arrange(ui_.window.layout, display, scale);
+        if (drag_splitters(ui_.window.layout, areas, scale)) areas = arrange(ui_.window.layout, display, scale);
         draw_panels(panels, areas);
         viewport_.draw(panels, areas.viewport, *window_);
+        draw_views_menu(panels, areas.viewport);
         draw_light_banner(panels, areas.viewport);
         draw_status_bar(panels, areas.status, window_->capabilities());
         draw_keys_window(panels);
@@ -117,16 +124,16 @@ void ViewerApp::draw(bool shown) {
 
 void ViewerApp::draw_panels(PanelContext& panels, const Areas& areas) {
     // Panels ask for their tab over two frames: the one that they are asked in may be drawn after it.
-    static bool first = true;
+    static bool first = true, first_below = true;
     ui_.hovered.clear();
+    viewed().wants_histogram = false;
+    if (ui_.timeline) ui_.timeline->wants_change = false;
     draw_tabs("##left", areas.left, k_left, ui_.window.left_tab, first, panels);
     draw_tabs("##upper", areas.upper_right, k_upper, ui_.window.upper_tab, first, panels);
     draw_tabs("##lower", areas.lower_right, k_lower, ui_.window.lower_tab, first, panels);
+    draw_tabs("##bottom", areas.bottom, k_bottom, ui_.window.bottom_tab, first_below, panels);
     first = false;
-    if (!areas.log.visible()) return;
-    begin_area("##log", areas.log);
-    draw_log_panel(panels);
-    ImGui::End();
+    first_below = !areas.bottom.visible();
 }
 
 void ViewerApp::draw_keys_window(PanelContext& panels) {

@@ -3,13 +3,17 @@
 #include "app/ui/captures.h"
 #include "app/ui/live_comparison.h"
 #include "app/ui/open.h"
+#include "app/ui/settings_key.h"
+#include "app/ui/snapshots.h"
 #include "app/ui/style.h"
+#include "app/ui/timeline.h"
 #include "app/viewer/viewer_app.h"
 #include "core/log.h"
 #include "core/problem.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <fmt/format.h>
 #include <thread>
@@ -25,6 +29,7 @@ double seconds_now() {
 }
 
 constexpr double k_poll_interval = 0.2; ///< of watched files
+constexpr double k_motion_rest = 0.3;   ///< after which the whole picture is rendered again
 constexpr double k_settle_time = 0.15;  ///< of the viewport's size, before everything is allocated again
 constexpr int k_max_resets = 5;         ///< of the GPU with fewer than so many frames between:
 constexpr int k_good_frames = 100;
@@ -63,7 +68,12 @@ void ViewerApp::run() {
         }
         if (rendered) {
             ui_.frame_times.push_back({float(1000 * (seconds_now() - start)), !planned_now_});
+            if (motion_share_ == 1 && !planned_now_) whole_ms_ = ui_.frame_times.back().ms;
             if (ui_.frame_times.size() > k_kept_frames) ui_.frame_times.erase(ui_.frame_times.begin());
+            if (!ui_.timeline) ui_.timeline = std::make_shared<Timeline>();
+            attempt([&] {
+                ui_.timeline->add(*session_, ui_.frame_times.back().ms, ui_.comparison.get(), settings_key(*session_));
+            });
         }
     }
     if (!options_.capture_on_exit.empty()) write_picture(*session_, options_.capture_on_exit);
@@ -83,6 +93,7 @@ void ViewerApp::wait() {
     if (!ui_.paused) until = std::min(until, next_play_);
     if (ui_.redraw_panels) until = std::min(until, now + 0.1);
     until = std::min(until, next_measurement());
+    if (motion_share_ < 1) until = std::min(until, moved_at_ + k_motion_rest);
     if (fitting_.x > 0) until = std::min(until, fitting_since_ + k_settle_time);
     if (until <= now)
         window_->poll_events();
@@ -113,6 +124,7 @@ void ViewerApp::handle_events() {
         ask_for_file(panels, path);
     run_later_actions();
     double now = seconds_now();
+    follow_camera(now);
     if (now < next_poll_) return;
     next_poll_ = now + k_poll_interval;
     // At rest: neither a drag nor a flight is written step by step.
@@ -170,29 +182,47 @@ bool ViewerApp::time_to_advance() {
     return true;
 }
 
+/// How much of the picture's width and height is rendered: where a frame at the whole size is slow, less while a person
+/// moves something, so that the picture follows; the whole again when it has rested for a while.
+float ViewerApp::motion_share(double now) {
+    constexpr float k_slow = 100, k_wanted = 50; // milliseconds
+    const bool moving = viewport_.busy() || (ImGui::IsAnyItemActive() && ui_.redraw_frames > 0);
+    const bool wanted = ui_.window.coarse_while_moving && ui_.window.sizing.fit && !ui_.window.capture.recording &&
+                        !is_scripted() && whole_ms_ > k_slow;
+    if (moving) moved_at_ = now;
+    if (!wanted || now - moved_at_ > k_motion_rest) return 1;
+    if (motion_share_ < 1) return motion_share_; // one size for a whole motion
+    const float share = std::sqrt(k_wanted / whole_ms_);
+    return share > 0.6f ? 0.75f : share > 0.35f ? 0.5f : 0.25f;
+}
+
 void ViewerApp::fit_picture() {
     const PictureSizing& sizing = ui_.window.sizing;
     glm::vec2 whole(session_->shot().width, session_->shot().height);
     if (sizing.fit) {
         float scale = window_->content_scale() * ui_.window.interface_scale;
         glm::ivec2 display = window_->size();
-        Areas areas = arrange(ui_.window.layout, {float(display.x), float(display.y)}, scale, ui_.show_log);
+        Areas areas = arrange(ui_.window.layout, {float(display.x), float(display.y)}, scale);
         whole = glm::vec2(areas.viewport.size.x, areas.viewport.size.y) * window_->pixel_ratio();
     } else if (sizing.fixed.x > 0 && sizing.fixed.y > 0) {
         whole = glm::vec2(sizing.fixed);
     }
-    glm::ivec2 size = glm::clamp(glm::ivec2(glm::round(whole * sizing.scale)), glm::ivec2(1), glm::ivec2(16384));
+    const double now = seconds_now();
+    const float share = motion_share(now);
+    const bool motion = share != motion_share_;
+    motion_share_ = share;
+    glm::ivec2 size =
+        glm::clamp(glm::ivec2(glm::round(whole * sizing.scale * share)), glm::ivec2(1), glm::ivec2(16384));
     if (size == session_->size()) {
         fitting_ = glm::ivec2(0);
         return;
     }
-    double now = seconds_now();
     if (size != fitting_) {
         fitting_ = size;
         fitting_since_ = now;
     }
     // While a border is dragged, the picture is stretched; it is made anew when the size has settled.
-    if (rendered_ > 0 && sizing.fit && now - fitting_since_ < k_settle_time) return;
+    if (rendered_ > 0 && sizing.fit && !motion && now - fitting_since_ < k_settle_time) return;
     fitting_ = glm::ivec2(0);
     session_->resize(size);
     ui_.redraw();
@@ -261,6 +291,8 @@ void ViewerApp::make_gpu_again() {
     viewport_.release_gpu();
     if (ui_.comparison) ui_.comparison->release_gpu();
     ui_.cones.reset();
+    ui_.nodes.reset();
+    if (ui_.snapshots) ui_.snapshots->release_gpu();
     window_->make_again();
     make_interface();
     session_->restore_gpu();

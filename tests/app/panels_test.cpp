@@ -1,8 +1,8 @@
 // The graph, shaders, resources and inspector panels: what is pressed changes what it should, and undo takes it back.
 #include "app/panel_fixture.h"
-#include "app/panels/pass_rows.h"
 #include "app/panels/shader_errors.h"
 #include "app/panels/viewer_settings.h"
+#include "app/pass_rows.h"
 #include "app/ui/texel.h"
 #include "app/ui/texture_view.h"
 #include "gpu/barrier.h"

@@ -37,9 +37,10 @@ class WindowWork(WindowTest):
     def test_edits_of_a_shot_outlive_a_switch(self):
         self.open("cornell", *SMALL, "--size", "%dx%d" % PICTURE)
         self.drag("light.0.outer_cone", 0.5, 0.3)
+        self.wait(lambda state: state["undo"].endswith("cone"), "the edit of the light")
         camera = self.state()["camera"]
         self.drag("viewport", 0.5, 0.55)
-        left = self.wait(lambda state: state["camera"] != camera and state["undo"].endswith("cone"), "the edits")
+        left = self.wait(lambda state: state["camera"] != camera and state["undo"] == "camera", "the edits")
         self.choose("scene.shot", "scene.shot.cornell_lamp")
         state = self.wait(lambda state: state["shot"] == "cornell_lamp" and state["notice"].startswith("opened"), "another shot")
         self.assertIn("your edits of cornell are kept", state["notice"])

@@ -3,9 +3,9 @@
 #include "app/session.h"
 #include "gpu/driver_limits.h"
 #include "graph/plan_needs.h"
-#include "image/every_graph.h"
 #include "scene/describe.h"
 #include "support/errors.h"
+#include "support/every_graph.h"
 #include "support/gpu_context.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Every registered pass, on a tiny scene with every kind of light: no OpenGL error, nothing that is not finite.
 #include "app/session.h"
 #include "core/paths.h"
-#include "image/every_graph.h"
+#include "support/every_graph.h"
 #include "support/gpu_context.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "app/panels/pass_rows.h"
+#include "app/pass_rows.h"
 
 #include "core/text.h"
 #include "gpu/barrier.h"
