@@ -200,9 +200,13 @@ std::string scene_text(const MethodSuite& suite, const MethodScene& scene, const
                        const Metric& metric) {
     Points all, light;
     std::string groups, table;
+    std::vector<std::string> absent;
     for (const MethodGroup& group : suite.groups) {
         const Points own = points_of(points, scene, group);
         all.insert(all.end(), own.begin(), own.end());
+        const bool meant = group.scenes.empty() ||
+                           std::find(group.scenes.begin(), group.scenes.end(), scene.shot) != group.scenes.end();
+        if (own.empty() && meant) absent.push_back(group.title);
         groups += group_text(suite, group, own, metric);
         const auto scores = scores_of(own, [&](const ChartPoint& p) { return std::optional(p.error(metric)); });
         for (const auto& [graph, best] : best_of_graphs(scores))
@@ -219,6 +223,7 @@ std::string scene_text(const MethodSuite& suite, const MethodScene& scene, const
                 front_sentences(
                     scores, [&](const MethodScore& score) { return metric_text(metric, score.point->full, false); }) +
                 "\n\n";
+    if (!absent.empty()) whole += "Not measured on this scene: " + join(absent, "; ") + ".\n\n";
     const glm::ivec2 size = all.front()->task.size();
     const std::string kept =
         fmt::format("{:.0f} % of the pixels lie off edges and count; the reference's own noise is {} in {}.\n\n",

@@ -104,6 +104,13 @@ TEST(MethodText, SaysWhatThePointsSay) {
                           "(1.0 ms, 75.00 %)"));
     EXPECT_THAT(text, HasSubstr("the least has `fast` (1.0 MiB), the most `best` (20.0 MiB)"));
     EXPECT_THAT(text, Not(HasSubstr("Flicker"))) << "nothing moves";
+    EXPECT_THAT(text, Not(HasSubstr("Not measured")));
+    MethodSuite more = suite;
+    more.groups.push_back({"two", "two bounces", {"out.indirect_diffuse"}, 2, true, {}, {}});
+    more.groups.push_back({"sky", "the sky", {"out.environment"}, {}, {}, {"yard"}, {}});
+    EXPECT_THAT(scene_text(more, more.scenes.front(), k_points, find_metric("relative_rmse")),
+                HasSubstr("Not measured on this scene: two bounces."))
+        << "the sky is meant for another scene";
 }
 
 TEST(MethodText, ABlackPictureIsOnNoFront) {
