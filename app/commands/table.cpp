@@ -5,6 +5,7 @@
 #include "app/commands/session_options.h"
 #include "app/experiments/cost_table.h"
 #include "app/experiments/error_table.h"
+#include "app/experiments/paper_list.h"
 #include "app/experiments/table_file.h"
 #include "app/hosts/headless.h"
 #include "app/origin.h"
@@ -75,6 +76,8 @@ std::string limits_table() {
 
 std::string table_text(const TableArguments& arguments) {
     if (arguments.table == "limits") return limits_table();
+    if (arguments.table == "papers")
+        return origin_head({origin_here()}) + "\n" + paper_list_markdown(load_paper_list(paper_list_path()));
     const std::filesystem::path path = find_table(arguments.table);
     return is_error_table(path) ? measured_errors(arguments, path) : measured_costs(arguments);
 }
@@ -92,9 +95,9 @@ int print_table(const TableArguments& arguments) {
 
 void add_table_command(CLI::App& app, CommandFunction& chosen) {
     auto* command =
-        app.add_subcommand("table", "costs beside a paper's figures, or errors against the reference, as Markdown");
+        app.add_subcommand("table", "costs beside a paper's, errors against the reference, or lists, as Markdown");
     auto arguments = std::make_shared<TableArguments>();
-    command->add_option("table", arguments->table, "a table (name or .json), or limits: what is taken at most")
+    command->add_option("table", arguments->table, "a table (name or .json), limits, or papers: what we have of theirs")
         ->type_name("TABLE")
         ->required();
     command->add_option("--size", arguments->size, "WxH instead of the shots' sizes")->check(picture_size());
