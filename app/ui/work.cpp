@@ -95,12 +95,11 @@ void place_lights(const json& lights, Scene& scene) {
     }
 }
 
-/// Whether a light came or went, by their names.
-bool are_others(const json& lights, const Scene& scene) {
-    if (lights.size() != scene.lights.size()) return true;
-    for (size_t i = 0; i < lights.size(); ++i)
-        if (lights[i].at("name") != scene.lights[i].name && lights[i].contains("node")) return true;
-    return false;
+json names_of(const std::vector<Light>& lights) {
+    json names = json::array();
+    for (const Light& light : lights)
+        names.push_back(light.name);
+    return names;
 }
 
 json material_json(const Material& material) {
@@ -137,6 +136,8 @@ json shot_work(Session& session, const SceneBaseline& opened) {
     }
     if (edited_lights(shot.scene, opened) > 0) {
         work["lights"] = json::array();
+        // Some came or went: those that they were are told, so that they fit that file alone.
+        if (names_of(shot.scene.lights) != names_of(opened.lights)) work["lights_of_file"] = names_of(opened.lights);
         for (size_t i = 0; i < shot.scene.lights.size(); ++i)
             work["lights"].push_back(light_json(shot.scene.lights[i], node_of_light(shot.scene, i), shot.scene));
     }
@@ -168,7 +169,11 @@ void set_shot_work(Session& session, const json& work) {
     std::optional<Camera> camera;
     if (work.contains("camera")) camera = camera_from(work.at("camera"), session.camera());
     const json lights = work.value("lights", json::array()), materials = work.value("materials", json::array());
-    if (work.contains("lights") && are_others(lights, scene)) place_lights(lights, scene);
+    if (work.contains("lights_of_file")) {
+        if (work.at("lights_of_file") != names_of(scene.lights)) throw Error("its lights are others");
+        place_lights(lights, scene);
+    }
+    if (work.contains("lights") && lights.size() != scene.lights.size()) throw Error("its lights are others");
     for (size_t i = 0; i < lights.size(); ++i)
         set_light(lights[i], scene.lights[i], node_of_light(scene, i));
     if (!materials.empty() && materials.size() != scene.materials.size()) throw Error("its materials are others");
