@@ -7,6 +7,7 @@
 #include "core/comparison.h"
 #include "core/error.h"
 #include "core/printable.h"
+#include "core/text.h"
 #include "graph/shader_log.h"
 #include "reference/reference_image.h"
 #include "scene/shot.h"
@@ -71,6 +72,16 @@ void read_row(const ordered_json& object, const std::string& where, ErrorTableRo
     }
     for (const auto& [name, value] : sets_at(object, where, errors))
         row.sets.emplace_back(name, value);
+}
+
+/// "voxelization.resolution=256, gather.spiral_cones=31".
+std::string auto_values(const GraphModel& model) {
+    std::vector<std::string> values;
+    for (const std::string& name : model.parameter_names()) {
+        const Parameter& p = model.parameter(name);
+        if (p.is_auto) values.push_back(name + "=" + to_text(p.info, p.value));
+    }
+    return join(values, ", ");
 }
 
 std::string surface_name(const SurfaceComparison& surface, const Scene& scene) {
@@ -149,6 +160,8 @@ ErrorTableMeasured measure_row(const ErrorTableRow& row, const std::function<voi
     measured.frame_ms = session.graph().frame_ms();
     measured.bytes = session.graph().plan().total_bytes();
 
+    measured.autos = auto_values(session.graph().model());
+
     ReferenceSettings settings = transport_settings(session.graph().model());
     if (row.bounces) settings.bounces = *row.bounces;
     if (row.diffuse_only) settings.diffuse_only = *row.diffuse_only;
@@ -216,7 +229,8 @@ std::string error_table_markdown(const ErrorTableFile& file, const std::vector<E
         const ErrorTableMeasured& m = measured[i];
         out += fmt::format("| {}, {}×{}{} | `{}` | {} |", markdown_cell(row.shot), row.size.x, row.size.y,
                            row.multiple > 1 ? fmt::format(" (rendered at {} times)", row.multiple) : "",
-                           markdown_cell(row.graph), markdown_cell(row.name));
+                           markdown_cell(row.graph),
+                           markdown_cell(row.name + (m.autos.empty() ? "" : " (" + m.autos + ")")));
         if (!m.skipped.empty()) {
             out += fmt::format(" skipped: {} |\n", markdown_cell(m.skipped));
             continue;

@@ -51,6 +51,7 @@ struct SurfaceError {
 /// What a row measured.
 struct ErrorTableMeasured {
     std::string skipped;           ///< the reason, where the row could not be measured: its scene is not there
+    std::string autos;             ///< values that follow the scene's needs: "voxelization.resolution=256"; "" for none
     bool absolute = false;         ///< errors are told in AO units
     MetricValues errors, windowed; ///< the latter where the row has a window
     double frame_ms = 0;
