@@ -17,7 +17,7 @@ struct StabilityCell {
     std::optional<double> figure; ///< what is held to the mark; none with a failure
     double seconds = 0;           ///< that it took
     bool reached = false;         ///< |figure| ≤ the case's mark
-    std::string key;              ///< digest of all that made it: program, case, graph, settings
+    std::string key{};            ///< digest of all that made it: program, case, graph, settings
 };
 
 struct StabilityRow {

@@ -22,9 +22,8 @@ TEST(AutoValues, EveryNeedThatIsFollowedIsKnown) {
     for (const std::string& graph : asset_names("graphs")) {
         const GraphModel model(read_graph_file(find_graph(graph)));
         for_each_parameter(model, [&](const std::string& name, const Parameter& p) {
-            if (!p.info.automatic.empty())
-                EXPECT_TRUE(needs.contains(p.info.automatic))
-                    << graph << ": " << name << " follows " << p.info.automatic;
+            if (p.info.automatic.empty()) return;
+            EXPECT_TRUE(needs.contains(p.info.automatic)) << graph << ": " << name << " follows " << p.info.automatic;
         });
     }
 }
@@ -64,7 +63,7 @@ TEST_F(AutoSession, AShotGivesValuesWithReasons) {
     EXPECT_EQ(texels.text(), "auto");
     EXPECT_NE(texels.reason, "");
     EXPECT_EQ(std::get<int>(texels.value), int(session.needs().at("map_texels").value));
-    EXPECT_EQ(session.graph().plan().find_resource("rsm.depth")->size.x, std::get<int>(texels.value));
+    EXPECT_EQ(session.graph().plan().find_resource("rsm.depth")->texture.size.x, std::get<int>(texels.value));
     // Another scene, another value.
     session.open_shot("atrium");
     EXPECT_GT(std::get<int>(model.parameter("rsm.resolution").value), 256);

@@ -43,7 +43,7 @@ TEST_F(AutoTest, WhatFollowsTheGraphFollowsIt) {
     EXPECT_EQ(m.number("graph.side"), 32) << "the step that is not below 20";
     EXPECT_EQ(m.number("rays.rays"), 64);
     EXPECT_THAT(m.take_changes(), testing::UnorderedElementsAre("graph.side", "rays.rays"));
-    EXPECT_EQ(m.plan({}, {16, 16}).find_resource("a.out")->size.x, 32);
+    EXPECT_EQ(m.plan({}, {16, 16}).find_resource("a.out")->texture.size.x, 32);
     EXPECT_EQ(m.values().options(), "--set graph.side=auto");
     m.resolve_auto(needs);
     EXPECT_TRUE(m.take_changes().empty()) << "nothing has changed";
