@@ -18,9 +18,11 @@ struct ParamsArguments {
 
 void print_set(const std::string& id, const ParameterSet& set, bool markdown) {
     for (const Parameter& p : set.all()) {
-        std::string name = id + "." + p.info.name, value = to_text(p.info, p.value), range = range_text(p.info);
+        std::string name = id + "." + p.info.name, value = p.text(), range = range_text(p.info);
         std::string unit = p.info.unit.empty() ? "" : " " + p.info.unit;
-        std::string help = p.info.help + (p.info.is_static ? " (compiled in)" : "");
+        std::string help =
+            p.info.help + (p.info.is_static ? " (compiled in)" : "") +
+            (p.info.automatic.empty() ? "" : fmt::format(" (auto: by the need for {})", p.info.automatic));
         if (markdown)
             print("| `{}` | {} | {}{} | {} |\n", name, markdown_cell(value), markdown_cell(range), markdown_cell(unit),
                   markdown_cell(help));
