@@ -37,15 +37,16 @@ TEST(AutoValues, PublishedGraphsHaveFixedOnes) {
 
 TEST(AutoValues, FinerScenesNeedMore) {
     FeatureSizes coarse, fine;
-    coarse.gap_10 = 2, fine.gap_10 = 0.5f;
+    coarse.gap_10 = 4, fine.gap_10 = 0.5f;
     coarse.area = fine.area = 3000;
     coarse.ray_variance = 3, fine.ray_variance = 6;
     const SceneNeeds few = needs_of(coarse, 20), many = needs_of(fine, 20);
     for (const auto& [name, need] : few) {
         EXPECT_LT(need.value, many.at(name).value) << name;
-        EXPECT_THAT(need.reason, testing::HasSubstr(name == "cones" ? "one ray" : "within 2 m")) << name;
+        EXPECT_THAT(need.reason, testing::HasSubstr(name == "cones" ? "one ray" : "within 4 m")) << name;
     }
-    EXPECT_EQ(few.at("voxels").value, 128) << "10 voxels in each of 10 gaps, as a power of two";
+    EXPECT_EQ(few.at("voxels").value, 128)
+        << "10 voxels in each of 5 gaps are 64 as a power of two, which the rule does not go below 128 for";
     EXPECT_THAT(needs_of(fine, 2000).at("voxels").reason, testing::HasSubstr("no more than 256"));
 }
 
