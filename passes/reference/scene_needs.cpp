@@ -18,7 +18,9 @@ constexpr double k_occluders_across = 5, k_least_occluders = 64, k_most_occluder
 constexpr double k_texels_across = 64, k_least_texels = 256, k_most_texels = 1024;
 constexpr double k_cones_by_variance = 6.5, k_least_cones = 16, k_most_cones = 48;
 constexpr double k_proxies_across = 95, k_least_proxies = 24000, k_most_proxies = 200000;
-constexpr double k_cells_across = 1.5, k_least_cells = 4, k_most_cells = 32;
+// Of proxies that light reaches a texel's lists hold so many: in bright rooms more of them lose light again.
+constexpr double k_most_lit_proxies = 22000;
+constexpr double k_cells_across = 1.5, k_least_cells = 6, k_most_cells = 32;
 
 std::string limited(double wanted, double least, double most) {
     if (wanted < least) return fmt::format(", but no fewer than {:g}", least);
@@ -46,7 +48,9 @@ SceneNeeds needs_of(const FeatureSizes& f, float extent) {
                                      fmt::format("{}: {:g} voxels across", around, k_occluders_across));
     needs["map_texels"] = need(power_of_two(k_texels_across * gaps), k_least_texels, k_most_texels,
                                fmt::format("{}: {:g} texels across", around, k_texels_across));
-    needs["proxies"] = need(k_proxies_across * f.area / (gap * gap), k_least_proxies, k_most_proxies,
+    const double most_proxies = f.lit_share > 0 ? k_most_lit_proxies / f.lit_share : k_most_proxies;
+    needs["proxies"] = need(k_proxies_across * f.area / (gap * gap), k_least_proxies,
+                            std::clamp(most_proxies, k_least_proxies, k_most_proxies),
                             fmt::format("{}, and all surfaces are {:.3g} m²: {:g} proxies in a square of that size",
                                         around, f.area, k_proxies_across));
     needs["cells"] = need(std::ceil(k_cells_across * gaps), k_least_cells, k_most_cells,
