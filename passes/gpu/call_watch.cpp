@@ -12,7 +12,8 @@
 // Each watched function: the driver's own is kept as real_NAME, and a lambda takes its place in glad's table.
 // clang-format off
 #define BOUNCE_WATCHED(WATCH) \
-    WATCH(UseProgram) WATCH(DeleteProgram) WATCH(ShaderSource) WATCH(AttachShader) WATCH(LinkProgram) \
+    WATCH(UseProgram) WATCH(DeleteProgram) WATCH(ShaderSource) WATCH(DeleteShader) WATCH(AttachShader) \
+    WATCH(LinkProgram) \
     WATCH(BindTextureUnit) WATCH(BindImageTexture) WATCH(BindBufferBase) WATCH(BindBufferRange) WATCH(BindBuffer) \
     WATCH(BindFramebuffer) WATCH(BindVertexArray) WATCH(VertexArrayVertexBuffer) WATCH(VertexArrayElementBuffer) \
     WATCH(CreateTextures) WATCH(TextureStorage2D) WATCH(TextureStorage3D) WATCH(TextureView) WATCH(DeleteTextures) \
@@ -132,6 +133,10 @@ void watch_programs() {
         for (GLsizei i = 0; i < count; ++i)
             text += lengths && lengths[i] >= 0 ? std::string(texts[i], size_t(lengths[i])) : std::string(texts[i]);
         real_ShaderSource(shader, count, texts, lengths);
+    };
+    glad_glDeleteShader = [](GLuint shader) { // programs are linked by then
+        g_watch->state.shader_texts.erase(shader);
+        real_DeleteShader(shader);
     };
     glad_glAttachShader = [](GLuint program, GLuint shader) {
         g_watch->state.attached[program].push_back(shader);
