@@ -14,7 +14,7 @@ namespace {
 
 constexpr int k_columns = 48, k_rows = 27; ///< camera rays of one view
 constexpr int k_rays = 16;                 ///< from each point that is seen
-constexpr size_t k_max_views = 4;
+constexpr size_t k_max_views = 4, k_max_lights = 16;
 constexpr float k_infinity = std::numeric_limits<float>::infinity();
 
 std::vector<Camera> views_of(const Shot& shot, const Camera& first) {
@@ -35,18 +35,21 @@ float share_below(std::vector<float>& sorted, double share) {
     return sorted.empty() ? 0 : sorted[std::min(sorted.size() - 1, size_t(share * double(sorted.size())))];
 }
 
-/// Luminance that the surface sends on of what the lights shine on it, as radiance.
-float reflected_light(const TraceGeometry& geometry, const PunctualLights& lights, const Surface& surface) {
+/// Luminance that the surface sends on of what the lights shine on it, as radiance. Of many lights some stand for all;
+/// `point` says which, so that the rays of one point see the same ones.
+float reflected_light(const TraceGeometry& geometry, const PunctualLights& lights, const Surface& surface,
+                      uint32_t point) {
+    const size_t step = std::max<size_t>(1, (lights.size() + k_max_lights - 1) / k_max_lights);
     float sum = luminance(surface.emission);
     const float albedo = luminance(surface.base_colour) * (1 - surface.metallic);
-    for (size_t i = 0; i < lights.size(); ++i) {
+    for (size_t i = hash_u32(point) % step; i < lights.size(); i += step) {
         const PunctualLights::Sample s = lights.sample(i, surface.place, glm::vec2(0.5f));
         const float cosine = glm::dot(s.direction, surface.geometric);
         if (cosine <= 0 || s.irradiance == glm::vec3(0)) continue;
         const bool near = s.distance < k_infinity;
         const glm::vec3 to_end = near ? s.direction * s.distance - surface.offset * surface.geometric : s.direction;
         if (geometry.occluded(surface.origin(), to_end, near ? 1 - 1e-6f : k_infinity)) continue;
-        sum += albedo * luminance(s.irradiance) * cosine / k_pi;
+        sum += float(step) * albedo * luminance(s.irradiance) * cosine / k_pi;
     }
     return sum;
 }
@@ -81,7 +84,9 @@ FeatureSizes measure_features(const Shot& shot) {
                 const glm::vec3 out = around.to_world(cosine_hemisphere(of_ray.next_pair()));
                 const Hit hit = geometry.intersect(surface.origin(), out, k_infinity);
                 free.push_back(hit.valid() ? hit.distance : k_infinity);
-                const float light = hit.valid() ? reflected_light(geometry, lights, geometry.surface(hit, out)) : 0;
+                const float light = hit.valid() ? reflected_light(geometry, lights, geometry.surface(hit, out),
+                                                                  uint32_t(features.points))
+                                                : 0;
                 lit += light > 0;
                 sum += light;
                 squares += double(light) * light;
