@@ -65,7 +65,7 @@ FeatureSizes measure_features(const Shot& shot) {
         for (uint32_t t = 0; t < part.triangle_count(); ++t)
             features.area += glm::length(triangle_cross(part, t)) / 2;
 
-    std::vector<float> gaps, distances;
+    std::vector<float> gaps;
     double rays = 0, lit = 0, weight = 0, variance = 0;
     const glm::vec2 size(k_columns, k_rows);
     for (const Camera& camera : views_of(shot, state.camera)) {
@@ -101,16 +101,12 @@ FeatureSizes measure_features(const Shot& shot) {
             }
             std::nth_element(free.begin(), free.begin() + k_rays / 2, free.end());
             if (free[k_rays / 2] < k_infinity) gaps.push_back(free[k_rays / 2]);
-            distances.push_back(seen.distance);
             ++features.points;
         }
     }
     std::sort(gaps.begin(), gaps.end());
-    std::sort(distances.begin(), distances.end());
     features.gap_10 = share_below(gaps, 0.1);
-    features.gap_25 = share_below(gaps, 0.25);
     features.gap_50 = share_below(gaps, 0.5);
-    features.view_distance = share_below(distances, 0.5);
     features.lit_share = rays > 0 ? float(lit / rays) : 0;
     features.ray_variance = weight > 0 ? float(variance / weight) : 0;
     return features;

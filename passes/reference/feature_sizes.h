@@ -8,11 +8,10 @@ namespace bounce {
 
 struct FeatureSizes {
     size_t points = 0; ///< of surfaces that are seen
-    /// How far the surfaces around lie: of each point the median over directions (by cosine), metres; of these the
-    /// least, a tenth, a quarter and a half of the points are below.
-    float gap_10 = 0, gap_25 = 0, gap_50 = 0;
-    float view_distance = 0; ///< from the camera: half of the points are nearer, metres
-    float area = 0;          ///< of all triangles, m²
+    /// How far the surfaces around lie: of each point the median over directions (by cosine), metres. A tenth and a
+    /// half of the points are below.
+    float gap_10 = 0, gap_50 = 0;
+    float area = 0; ///< of all triangles, m²
     /// Which share of the directions (by cosine) meets a surface that a light shines on directly.
     float lit_share = 0;
     /// Variance over squared mean of what one ray (by cosine) brings, the mean over the points by their light.
