@@ -230,7 +230,7 @@ class Window(WindowTest):
         self.drag("light.0.outer_cone", 0.5, 0.3)
         camera = self.state()["camera"]
         self.drag("viewport", 0.5, 0.55)
-        self.wait(lambda state: state["camera"] != camera, "another camera")
+        self.wait(lambda state: state["camera"] != camera and state["undo"] == "camera", "another camera, once the mouse is up")
         before = self.capture()
         self.edit("glsl/surface/tonemap.comp", "void main()", "// edited\nvoid main()")
         self.wait(lambda state: "compiled" in self.said(), "the edited program")
