@@ -28,7 +28,7 @@ static void default_state() {
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
-void Graph::execute(const FrameInputs& inputs) {
+bool Graph::execute(const FrameInputs& inputs, const BetweenPasses& between) {
     if (!planned_) throw Error("the graph has no plan yet");
     inputs_ = &inputs;
     bool all = model_->rebuild() == Rebuild::every_frame || (check_nan && !checked_nan_);
@@ -42,7 +42,11 @@ void Graph::execute(const FrameInputs& inputs) {
         const std::string& loop = plan_.passes[i].loop;
         while (!loop.empty() && last + 1 < plan_.passes.size() && plan_.passes[last + 1].loop == loop)
             ++last;
-        run_loop(i, last);
+        if (!run_loop(i, last, between)) {
+            invalidation_.cut_short(plan_, i, last);
+            end_execution();
+            return false;
+        }
         i = last + 1;
     }
     std::erase_if(broke_, [&](const auto& broken) {
@@ -52,31 +56,43 @@ void Graph::execute(const FrameInputs& inputs) {
     for (int resource : invalidation_.end_frame(plan_))
         allocations_.keep_previous(resource);
     if (counters_.collect(plan_, allocations_)) ask_for_larger_buffers();
+    end_execution();
+    watched_frames_ = std::max(watched_frames_ - 1, 0);
+    ++frames_;
+    return true;
+}
+
+void Graph::end_execution() {
     memory_barrier(GL_ALL_BARRIER_BITS); // whoever looks at the results (panels, readback) sees them
     default_state();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glUseProgram(0);
     inputs_ = nullptr;
-    watched_frames_ = std::max(watched_frames_ - 1, 0);
-    ++frames_;
 }
 
-/// One pass with all its steps, or the passes of a loop step by step.
-void Graph::run_loop(size_t first, size_t last) {
+/// One pass with all its steps, or the passes of a loop step by step. Returns false when `between` does.
+bool Graph::run_loop(size_t first, size_t last, const BetweenPasses& between) {
     const PlanPass& head = plan_.passes[first];
-    if (head.loop.empty()) {
-        run_pass(first, head.repeat_from, head.repeat_to);
-        return;
+    const auto goes_on = [&](size_t i) {
+        return !between || i + 1 == plan_.passes.size() || !invalidation_.runs(i) || between(i);
+    };
+    if (head.loop.empty() && (!between || head.repeat_to - head.repeat_from <= 1)) {
+        run_pass(first, head.repeat_from, head.repeat_to, false);
+        return goes_on(first);
     }
     for (int step = head.repeat_from; step < head.repeat_to; ++step) {
         // What one of them reads, or overwrites, any other may have touched in the step before.
-        if (step > head.repeat_from) memory_barrier(GL_ALL_BARRIER_BITS);
-        for (size_t i = first; i <= last; ++i)
-            run_pass(i, step, step + 1);
+        if (step > head.repeat_from) memory_barrier(head.loop.empty() ? head.step_barriers : GL_ALL_BARRIER_BITS);
+        for (size_t i = first; i <= last; ++i) {
+            run_pass(i, step, step + 1, true);
+            if (!goes_on(i)) return false;
+        }
     }
+    return true;
 }
 
-void Graph::run_pass(size_t index, int from, int to) {
+/// `cut`: it is timed step by step, since something may happen between them.
+void Graph::run_pass(size_t index, int from, int to, bool cut) {
     if (!lost_in_.empty()) return; // nothing can run any more
     const PlanPass& pass = plan_.passes[index];
     bool first = from == pass.repeat_from, last = to >= pass.repeat_to;
@@ -88,8 +104,8 @@ void Graph::run_pass(size_t index, int from, int to) {
     }
     PassNode& node = *model_->nodes()[size_t(pass.node)];
     DebugGroup group(pass.id);
-    size_t step = pass.loop.empty() ? 0 : size_t(from - pass.repeat_from);
-    timings_.begin(pass.id, step, pass.loop.empty() ? 1 : size_t(std::max(pass.repeat_to - pass.repeat_from, 1)));
+    size_t step = cut ? size_t(from - pass.repeat_from) : 0;
+    timings_.begin(pass.id, step, cut ? size_t(std::max(pass.repeat_to - pass.repeat_from, 1)) : 1);
     bool usable = std::all_of(node.programs.begin(), node.programs.end(),
                               [&](auto& p) { return p->usable() || !pass.runs(p->name()); });
     if (first) {

@@ -11,6 +11,7 @@
 #include "graph/nan_check.h"
 #include "graph/timings.h"
 
+#include <functional>
 #include <memory>
 
 namespace bounce {
@@ -20,6 +21,9 @@ struct FrameInputs {
     const SceneFacts* facts = nullptr;
     FrameConstants constants; ///< previous_view_projection, lights … filled in by the session
 };
+
+/// See Graph::execute().
+using BetweenPasses = std::function<bool(size_t done)>;
 
 /// What can go wrong while the program lives on.
 struct GraphProblem {
@@ -42,8 +46,11 @@ class Graph {
     /// it, a static one its program, one that shapes resources the plan. Throws Error the first time only; later a
     /// failure keeps the last good plan and shows in problems().
     void prepare(const SceneFacts& facts, glm::ivec2 size);
-    /// One frame. prepare() must have run.
-    void execute(const FrameInputs& inputs);
+    /// One frame. prepare() must have run. `between` is called between passes and between their steps with the number
+    /// of passes that are done; it may draw, but must not change the model. When it returns false the rest of the frame
+    /// is left out, and what changed since the last whole frame is made in the next. Returns whether the frame is
+    /// whole.
+    bool execute(const FrameInputs& inputs, const BetweenPasses& between = {});
 
     /// Waits for what the passes counted in this frame. True when a buffer of one of them was too small: the frame is
     /// to be prepared and executed again, with more (until it fits).
@@ -113,8 +120,9 @@ class Graph {
     std::vector<std::string> check_interface(const PassNode& node, const PlanPass& pass,
                                              const ProgramInterface& interface) const;
     bool needs_plan(const SceneFacts& facts, glm::ivec2 size);
-    void run_loop(size_t first, size_t last);
-    void run_pass(size_t index, int from, int to);
+    bool run_loop(size_t first, size_t last, const BetweenPasses& between);
+    void run_pass(size_t index, int from, int to, bool cut);
+    void end_execution();
     void ask_for_larger_buffers();
     void fill_failed(const PlanPass& pass);
     void look_for_nan(const PlanPass& pass);

@@ -211,6 +211,27 @@ void Invalidation::ran(size_t index, const GraphModel& model, const Plan& plan, 
     }
 }
 
+void Invalidation::cut_short(const Plan& plan, size_t first, size_t last) {
+    for (size_t i = first; i <= last; ++i)
+        passes_[plan.passes[i].id].ran = 0;
+    for (size_t r = 0; r < plan.resources.size(); ++r) {
+        bool written = false, unfinished = false;
+        for (size_t i = 0; i < plan.passes.size(); ++i) {
+            if (!runs_[i] || !writes(plan.passes[i], int(r))) continue;
+            (i <= last ? written : unfinished) = true;
+        }
+        if (written && unfinished) lies_[plan.resources[r].name()] = ++serial_;
+    }
+    // What was to be made from nothing may be half there: it is made from nothing again.
+    for (size_t r = 0; r < plan.resources.size(); ++r) {
+        const auto kept = kept_.find(plan.resources[r].name());
+        if (kept == kept_.end() || kept->second.content) continue;
+        kept->second.key = 0;
+        for (const PlanPass& pass : plan.passes)
+            if (writes(pass, int(r))) passes_[pass.id].ran = 0;
+    }
+}
+
 std::vector<int> Invalidation::end_frame(const Plan& plan) {
     std::vector<int> to_copy;
     for (size_t r = 0; r < plan.resources.size(); ++r) {

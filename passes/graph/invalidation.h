@@ -37,6 +37,9 @@ class Invalidation {
     /// The pass has run. `whole`: without an error; else what it keeps is void in the next frame.
     void ran(size_t pass, const GraphModel& model, const Plan& plan, const Allocations& allocations,
              const FrameInputs& frame, bool whole);
+    /// The frame ends within or after the passes `first` to `last`: in the next one they run again, and so do all
+    /// writers of what only some of them have written. What was begun anew in this frame is void.
+    void cut_short(const Plan& plan, size_t first, size_t last);
     /// Resources whose last frame's copy is not that of this frame yet; from here on it counts as made.
     std::vector<int> end_frame(const Plan& plan);
 

@@ -147,6 +147,52 @@ TEST_P(Stale, AnEditedShaderShowsWhatAFreshStartShows) {
     EXPECT_LT(unchanged.size(), files.size() / 3);
 }
 
+/// A frame that is left after any of its passes, before or after a change, leaves nothing that is wrong in the next
+/// one.
+TEST_P(Stale, AFrameThatIsCutShortShowsWhatAFreshStartShows) {
+    Camera camera;
+    camera.position = {1.2f, 0.9f, 1.5f};
+    camera.target = {0, 0.3f, 0};
+    const auto change = [&](Session& session) {
+        session.set_camera(camera);
+        session.shot().scene.lights[1].intensity *= 0.5f;
+        session.scene_edited();
+    };
+    for (const char* rebuild : {"every_frame", "on_change"}) {
+        SessionOptions given = options(GetParam());
+        given.sets.emplace_back("graph.rebuild", rebuild);
+        Session still(given), moved(given);
+        const Parts base = rendered(still);
+        change(moved);
+        const Parts after = rendered(moved);
+        ASSERT_NE(differences(base, after), "");
+        size_t calls = 0;
+        Session session(given);
+        ASSERT_TRUE(session.render(false, [&](size_t) { return ++calls > 0; })) << "cut, but not short";
+        ASSERT_EQ(differences(parts(session), base), "") << rebuild;
+        ASSERT_GT(calls, 4u);
+        for (size_t last = 1; last <= calls; last += std::max(calls / 6, size_t(1))) {
+            size_t call = 0;
+            const BetweenPasses until_last = [&](size_t) { return ++call < last; };
+            Session cut(given);
+            EXPECT_FALSE(cut.render(false, until_last)); // its first frame
+            ASSERT_EQ(differences(rendered(cut), base), "") << rebuild << ", first frame left after " << last;
+            change(cut);
+            call = 0;
+            cut.render(false, until_last); // fewer passes may run than it waits for
+            ASSERT_EQ(differences(rendered(cut), after), "") << rebuild << ", left after " << last;
+        }
+        // What is put back while its frame is cut is as it was.
+        Session back(given);
+        rendered(back);
+        back.resize({24, 20});
+        size_t call = 0;
+        back.render(false, [&](size_t) { return ++call < calls / 2; });
+        back.resize({32, 18});
+        EXPECT_EQ(differences(rendered(back), base), "") << rebuild << ", another size for half a frame";
+    }
+}
+
 /// What is in the scene and how it is looked at.
 TEST_P(Stale, AChangedSceneShowsWhatAFreshStartShows) {
     const std::string other = write_shot_of("other");
