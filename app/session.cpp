@@ -137,8 +137,9 @@ void Session::resize(glm::ivec2 size) {
     has_last_view_ = false;
 }
 
-void Session::render(bool whole) {
-    state_ = evaluate_shot(*shot_, frame_);
+bool Session::render(bool whole, const BetweenPasses& between) {
+    const int frame = frame_; // another may be asked for between two passes
+    state_ = evaluate_shot(*shot_, frame);
     if (scene_dirty_) {
         facts_ = shot_facts(*shot_);
         const float wanted = pre_exposure(state_.scene, shot_->scene.materials, shot_->environment,
@@ -166,7 +167,7 @@ void Session::render(bool whole) {
     c.pre_exposure = gpu_scene_->pre_exposure();
     c.environment_radiance = shot_->environment.radiance * c.pre_exposure;
     c.environment_map = shot_->environment.map.empty() ? 0 : 1;
-    c.frame_index = frame_;
+    c.frame_index = frame;
     c.light_count = int(gpu_scene_->light_list().size());
     c.shadow_view_count = gpu_scene_->shadow_view_count();
     c.diffuse_only = shot_->diffuse_only ? 1 : 0;
@@ -174,7 +175,7 @@ void Session::render(bool whole) {
     c.normal_maps = shot_->normal_maps ? 1 : 0;
 
     FrameInputs inputs{gpu_scene_.get(), &facts_, c};
-    graph_->execute(inputs);
+    if (!graph_->execute(inputs, between)) return false;
     constexpr int k_max_tries = 8; // each grows to what the one before had wanted
     for (int i = 0; whole && i < k_max_tries && graph_->needs_larger_buffers(); ++i) {
         graph_->prepare(facts_, size_);
@@ -187,7 +188,8 @@ void Session::render(bool whole) {
     }
     last_view_projection_ = c.view_projection;
     has_last_view_ = true;
-    rendered_frame_ = frame_;
+    rendered_frame_ = frame;
+    return true;
 }
 
 float Session::value_scale(const std::string& resource) const {

@@ -78,7 +78,8 @@ class Session {
     /// was reset meanwhile: what was rendered is void then. `whole`: waits for what the passes counted, and renders
     /// again with larger buffers as long as one was too small (the window shows a badge instead, and has the room a
     /// frame later).
-    void render(bool whole = false);
+    /// With `between`, see Graph::execute(). Returns whether the frame was rendered to its end.
+    bool render(bool whole = false, const BetweenPasses& between = {});
     /// Polls the watched files of graph and shaders. Returns true when something was reloaded.
     bool poll_files() { return graph_->poll_files(); }
     const SceneState& scene_state() const { return state_.scene; }

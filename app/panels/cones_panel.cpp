@@ -1,4 +1,5 @@
-// The final gather's cones at the pixel under the pointer: a row a cone, and a row a sphere of the chosen one.
+// What a gather does at the pixel under the pointer: of cones a row a cone, and a row a sphere of the chosen one; rays
+// are drawn only.
 #include "app/panels/cones_panel.h"
 
 #include "app/panels/panel.h"
@@ -28,42 +29,55 @@ bool ConesState::follow(const Buffer& cones, uint64_t frame) {
 
 namespace {
 
-constexpr const char* k_inspect = "inspect";
-constexpr const char* k_view = "view_cones";
+/// Passes that record what a gather does at one pixel and draw it.
+struct Inspection {
+    const char *inspect, *view, *resource;
+};
+constexpr Inspection k_inspections[] = {{"inspect", "view_cones", "debug.cones_view"},
+                                        {"inspect", "view_rays", "debug.rays_view"},
+                                        {"inspect_fan", "view_fan", "debug.vf_fan"}};
 
-void switch_views(PanelContext& context, bool on) {
-    GraphModel& model = context.session.graph().model();
-    for (const char* id : {k_inspect, k_view}) {
-        if (model.find_node(id)) model.switch_pass(id, on);
-    }
-    context.ui.redraw();
+/// Null where the graph has none.
+const Inspection* inspection_of(const GraphModel& model) {
+    for (const Inspection& known : k_inspections)
+        if (model.find_node(known.inspect) && model.find_node(known.view)) return &known;
+    return nullptr;
 }
 
-void draw_switches(PanelContext& context, bool on) {
-    if (ImGui::Checkbox("follow the pointer", &on)) switch_views(context, on);
+void switch_views(PanelContext& context, const Inspection& of, bool on) {
+    context.ui.change_graph([&session = context.session, &ui = context.ui, &of, on] {
+        for (const char* id : {of.inspect, of.view})
+            session.graph().model().switch_pass(id, on);
+        ui.redraw();
+    });
+}
+
+void draw_switches(PanelContext& context, const Inspection& of, bool on) {
+    if (ImGui::Checkbox("follow the pointer", &on)) switch_views(context, of, on);
     note_widget("cones.on");
-    show_tooltip("Switches on the passes that record the cones and draw them. The Pixel tab's hold, or its key, keeps "
-                 "the pixel.");
+    show_tooltip(
+        "Switches on the passes that record the gather at a pixel and draw it. The Pixel tab's hold, or its key, "
+        "keeps the pixel.");
     if (!on) return;
     ImGui::SameLine();
-    bool shown = context.ui.pinned == "debug.cones_view";
-    if (ImGui::Checkbox("draw them", &shown)) pin(context.ui, context.session.graph(), shown ? "debug.cones_view" : "");
+    bool shown = context.ui.pinned == of.resource;
+    if (ImGui::Checkbox("draw them", &shown)) pin(context.ui, context.session.graph(), shown ? of.resource : "");
     note_widget("cones.draw");
-    show_tooltip("Shows debug.cones_view: axes, and circles for spheres. Its parameters are those of view_cones.");
+    show_tooltip(fmt::format("Shows {}. Its parameters are those of {}.", of.resource, of.view));
 }
 
 /// The pointer's pixel becomes the pass's parameter; the frame that is rendered next records its cones.
-void send_pixel(PanelContext& context) {
+void send_pixel(PanelContext& context, const Inspection& of) {
     UiState& ui = context.ui;
     Session& session = context.session;
     glm::ivec2 size = session.graph().plan().size;
     bool inside = ui.cursor_pixel.x >= 0 && ui.cursor_pixel.y >= 0 && glm::all(glm::lessThan(ui.cursor_pixel, size));
-    if (!inside) return;
+    if (!inside || ui.mid_frame) return;
     glm::vec2 place = (glm::vec2(ui.cursor_pixel) + 0.5f) / glm::vec2(size);
-    Parameter& parameter = session.graph().model().parameter(fmt::format("{}.pixel", k_inspect));
+    Parameter& parameter = session.graph().model().parameter(fmt::format("{}.pixel", of.inspect));
     std::string text = fmt::format("{:.6g},{:.6g}", place.x, place.y);
     if (to_text(parameter.info, parameter.value) == text) return;
-    session.set_parameter(fmt::format("{}.pixel", k_inspect), text, ParameterOrigin::panel);
+    session.set_parameter(fmt::format("{}.pixel", of.inspect), text, ParameterOrigin::panel);
     ui.redraw();
 }
 
@@ -144,15 +158,17 @@ void draw_spheres(const ConesState& state, const LoadedSpace& space, float heigh
 void draw_cones_panel(PanelContext& context) {
     UiState& ui = context.ui;
     const Graph& graph = context.session.graph();
-    const PassNode* inspect = graph.model().find_node(k_inspect);
-    if (!inspect) {
-        show_wrapped("This graph gathers no cones that could be looked at: it has no pass 'inspect'.", k_dim_colour);
+    const Inspection* of = inspection_of(graph.model());
+    if (!of) {
+        show_wrapped("This graph has no passes that record what its gather does at a pixel.", k_dim_colour);
         return;
     }
-    draw_switches(context, inspect->enabled);
+    const bool on = graph.model().find_node(of->inspect)->enabled;
+    draw_switches(context, *of, on);
+    if (!on) return;
+    send_pixel(context, *of);
     const Buffer* buffer = graph.buffer("debug.cones");
-    if (!inspect->enabled || !buffer) return;
-    send_pixel(context);
+    if (!buffer) return show_wrapped("Its rays can be drawn; only cones are listed here.", k_dim_colour);
     if (!ui.cones) ui.cones = std::make_shared<ConesState>();
     ConesState& state = *ui.cones;
     if (state.follow(*buffer, graph.frames())) ui.redraw_panels = true;

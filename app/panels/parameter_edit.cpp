@@ -79,6 +79,15 @@ bool apply(Session& session, UiState& ui, const std::vector<ParameterText>& valu
         const Parameter* parameter = model.find_parameter(value.name);
         return parameter && shapes_plan(session.graph(), value.name, *parameter);
     });
+    if (shapes && ui.mid_frame) {
+        for (const ParameterText& value : values)
+            ui.waiting_values[value.name] = value.text;
+        ui.change_graph([&session, &ui, values] {
+            ui.waiting_values.clear();
+            apply(session, ui, values);
+        });
+        return true;
+    }
     ErrorList errors, ignored;
     const std::vector<ParameterText> before = set_all(session, values, errors);
     if (std::string why = shapes ? plan_refusal(session) : ""; !why.empty()) {

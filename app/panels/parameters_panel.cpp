@@ -106,12 +106,17 @@ void draw_menu(PanelContext& context, const std::string& name, const Parameter& 
 /// The widget, and the edit that it makes: one step of undo from press to release.
 void draw_value(PanelContext& context, const std::string& id, const Parameter& parameter) {
     const ParameterInfo& info = parameter.info;
-    const ParameterText before = text_of(id, parameter);
+    ParameterText before = text_of(id, parameter);
+    ParameterValue present = parameter.value;
+    if (const auto waiting = context.ui.waiting_values.find(before.name); waiting != context.ui.waiting_values.end()) {
+        before.text = waiting->second;
+        if (before.text != k_auto) present = parse_value(info, std::string_view(before.text));
+    }
     ParameterEdit& edit = context.ui.edit;
     // What is typed waits for its end; so does a drag of what has the graph planned or a shader compiled again.
     const bool shapes = shapes_plan(context.session.graph(), before.name, parameter);
     const bool held = edit.name == before.name && (shapes || edit.waits);
-    ParameterValue value = held && edit.value.index() == parameter.value.index() ? edit.value : parameter.value;
+    ParameterValue value = held && edit.value.index() == present.index() ? edit.value : present;
     bool at_once = false;
     const bool changed = draw_parameter_widget(before.name, info, value, at_once);
     note_widget(before.name);

@@ -18,15 +18,17 @@ void switch_pass(PanelContext& context, const std::string& id, bool on) {
     std::vector<std::string> ids{id};
     if (on) ids = session.graph().model().off_before(id);
     set_enabled(session, ui, ids, on);
-    if (const std::string why = plan_refusal(session); !why.empty()) {
-        set_enabled(session, ui, ids, !on);
-        if (plan_refusal(session).empty())
-            return ui.say(fmt::format("{}: {} stays {}", why, id, on ? "off" : "on"), true);
-        set_enabled(session, ui, ids, on); // it was wrong before: this may be one of several steps to mend it
-    }
-    context.undo.push({(on ? "switch on " : "switch off ") + id,
-                       [&session, &ui, ids, on] { set_enabled(session, ui, ids, !on); },
-                       [&session, &ui, ids, on] { set_enabled(session, ui, ids, on); }});
+    ui.change_graph([&session, &ui, &undo = context.undo, ids, id, on] {
+        if (const std::string why = plan_refusal(session); !why.empty()) {
+            set_enabled(session, ui, ids, !on);
+            if (plan_refusal(session).empty())
+                return ui.say(fmt::format("{}: {} stays {}", why, id, on ? "off" : "on"), true);
+            set_enabled(session, ui, ids, on); // it was wrong before: this may be one of several steps to mend it
+        }
+        undo.push({(on ? "switch on " : "switch off ") + id,
+                   [&session, &ui, ids, on] { set_enabled(session, ui, ids, !on); },
+                   [&session, &ui, ids, on] { set_enabled(session, ui, ids, on); }});
+    });
 }
 
 } // namespace bounce

@@ -41,6 +41,7 @@ const std::vector<KeyBinding>& key_bindings() {
         {"Window", {"T"}, "show or hide the plots over time", show_timeline},
         {"Window", {"Tab"}, "hide or show the right column", show_right},
         {"Window", {"Shift+Tab"}, "hide or show the left column", show_left},
+        {"Window", {"F4"}, "swap the columns (a tab's menu moves the tab)", swap_columns},
         {"Window", {"F11"}, "whole screen", fullscreen},
         {"Window", {"Ctrl++", "Ctrl+=", "Ctrl+Shift+="}, "larger text", larger_interface},
         {"Window", {"Ctrl+-"}, "smaller text", smaller_interface},

@@ -16,6 +16,7 @@ enum class KeyCommand {
     snapshot,
     show_left,
     show_right,
+    swap_columns,
     fullscreen,
     larger_interface,
     smaller_interface,

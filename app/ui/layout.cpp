@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <imgui_internal.h>
 
 namespace bounce {
 
@@ -31,6 +32,8 @@ Areas arrange(const LayoutState& layout, ImVec2 display, float scale) {
     areas.upper_right = {{display.x - right, 0}, {right, upper}};
     areas.lower_right = {{display.x - right, upper + gap}, {right, std::max(height - upper - gap, 1.0f)}};
     areas.status = {{0, height}, {display.x, status}};
+    for (Area* area : {&areas.left, &areas.upper_right, &areas.lower_right, &areas.viewport, &areas.bottom})
+        if (layout.swapped) area->min.x = display.x - area->min.x - area->size.x;
     return areas;
 }
 
@@ -62,14 +65,19 @@ bool drag_splitters(LayoutState& layout, const Areas& areas, float scale) {
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
     auto limit = [&](float value) { return std::clamp(value, 150.0f, std::max(display.x / scale * 0.5f, 150.0f)); };
+    // The bar beside a column, on the side of the picture; a column grows as its bar moves away from it.
+    const auto inner = [&](const Area& column, bool is_left) {
+        return is_left != layout.swapped ? column.min.x + column.size.x : column.min.x - gap;
+    };
+    const float outward = layout.swapped ? -1.0f : 1.0f;
     if (areas.left.visible()) {
-        float moved = splitter("left", {areas.left.size.x, 0}, {gap, areas.left.size.y}, true, dragged);
-        if (moved != 0) layout.left = limit((areas.left.size.x + moved) / scale);
+        float moved = splitter("left", {inner(areas.left, true), 0}, {gap, areas.left.size.y}, true, dragged);
+        if (moved != 0) layout.left = limit((areas.left.size.x + outward * moved) / scale);
     }
     if (areas.upper_right.visible()) {
         float height = areas.lower_right.min.y + areas.lower_right.size.y;
-        float moved = splitter("right", {areas.upper_right.min.x - gap, 0}, {gap, height}, true, dragged);
-        if (moved != 0) layout.right = limit((areas.upper_right.size.x - moved) / scale);
+        float moved = splitter("right", {inner(areas.upper_right, false), 0}, {gap, height}, true, dragged);
+        if (moved != 0) layout.right = limit((areas.upper_right.size.x - outward * moved) / scale);
         moved = splitter("split", {areas.upper_right.min.x, areas.upper_right.size.y}, {areas.upper_right.size.x, gap},
                          false, dragged);
         if (moved != 0) layout.right_split = std::clamp((areas.upper_right.size.y + moved) / height, 0.1f, 0.9f);
@@ -83,6 +91,14 @@ bool drag_splitters(LayoutState& layout, const Areas& areas, float scale) {
     ImGui::PopStyleColor();
     ImGui::PopStyleVar();
     return dragged;
+}
+
+void keep_over_picture() {
+    ImGuiWindow* own = ImGui::GetCurrentWindow();
+    const ImGuiWindow* picture = ImGui::FindWindowByName(k_picture_window);
+    const ImVector<ImGuiWindow*>& order = GImGui->Windows; // the last one is in front
+    if (picture && order.find(own) < std::find(order.begin(), order.end(), picture))
+        ImGui::BringWindowToDisplayFront(own);
 }
 
 bool begin_area(const char* name, const Area& area, ImGuiWindowFlags flags) {

@@ -8,6 +8,8 @@
 
 namespace bounce {
 
+inline constexpr const char* k_picture_window = "##viewport";
+
 struct Area {
     ImVec2 min{0, 0}, size{0, 0};
     bool visible() const { return size.x > 0 && size.y > 0; }
@@ -25,5 +27,8 @@ bool drag_splitters(LayoutState& layout, const Areas& areas, float scale);
 
 /// Begins a fixed window that fills the area.
 bool begin_area(const char* name, const Area& area, ImGuiWindowFlags flags = 0);
+
+/// The current window, a small one over the picture, stays there when the picture is clicked.
+void keep_over_picture();
 
 } // namespace bounce

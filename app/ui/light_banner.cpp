@@ -96,6 +96,7 @@ void draw_light_banner(PanelContext& context, const Area& area) {
     ImGui::Begin("##light", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize);
+    keep_over_picture();
     ImGui::AlignTextToFramePadding();
     show_text(text, k_warning_colour);
     note_widget("banner.text");

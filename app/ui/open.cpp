@@ -43,6 +43,7 @@ static void open_shot(PanelContext& context, const std::string& name, bool as_in
     context.undo.clear();
     ui.window.opened = baseline_of(session);
     ui.window.capture.saved_shot.clear();
+    ui.pinned_rays.reset();
     ui.cursor_locked = false;
     ui.cursor_pixel = glm::ivec2(-1);
     ui.redraw();
@@ -60,10 +61,15 @@ void ask_for_shot(PanelContext& context, const std::string& name) {
     context.ui.window.ask([context, name]() mutable { open_shot(context, name, false); });
 }
 
-void ask_for_shot_again(PanelContext& context) {
+void read_shot_again(PanelContext& context) {
     context.ui.say("reading the shot again …");
     context.ui.window.ask(
         [context]() mutable { open_shot(context, std::string(context.session.options().shot), true); });
+}
+
+void ask_for_shot_again(PanelContext& context) {
+    context.ui.window.discarding = edits_of_shot(context);
+    if (context.ui.window.discarding.empty()) read_shot_again(context);
 }
 
 /// The values of `mine` that the present graph has taken over, and those that it has not, as people write them.

@@ -13,8 +13,11 @@ SceneBaseline baseline_of(const Session& session);
 void ask_for_shot(PanelContext& context, const std::string& name);
 /// The values and switches that a person set go along where the new graph has them, and it is told which.
 void ask_for_graph(PanelContext& context, const std::string& name);
-/// The shot as it is in its file: what was edited is forgotten.
+/// The shot as it is in its file: what was edited is forgotten. Where that is more than the camera, a person is asked
+/// first (discard_prompt.h).
 void ask_for_shot_again(PanelContext& context);
+/// The same without a question.
+void read_shot_again(PanelContext& context);
 /// A file by what it holds: a .gltf or .glb by its extension, a .json by its keys.
 void ask_for_file(PanelContext& context, const std::string& path);
 

@@ -74,6 +74,12 @@ void draw_status_bar(PanelContext& context, const Area& area, const Capabilities
     help(current ? "GPU time of a frame in which all passes run: the sum of their medians since something was changed."
                  : "GPU time of earlier settings: the present ones have not been measured yet.");
     gap();
+    if (ui.mid_frame) {
+        ImGui::TextColored(k_accent_colour, "%2.0f %%", double(100 * ui.frame_share));
+        note_widget("status.frame_share");
+        help("Passes of the present frame that are done. What changes the graph takes effect at its end.");
+        gap();
+    }
     const char* state = ui.window.capture.recording ? "recording"
                         : !ui.paused                ? "playing"
                         : ui.render_always          ? "rendering"

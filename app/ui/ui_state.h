@@ -6,8 +6,10 @@
 
 #include <functional>
 #include <glm/glm.hpp>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace bounce {
@@ -54,6 +56,7 @@ class LiveComparison;
 struct ConesState;
 struct NodesState;
 class ParameterSweep;
+struct PinnedRayList;
 struct Snapshots;
 struct Timeline;
 class StabilityRun;
@@ -90,16 +93,27 @@ struct UiState {
     std::shared_ptr<ConesState> cones;          ///< likewise
     std::shared_ptr<NodesState> nodes;          ///< likewise
     std::shared_ptr<Snapshots> snapshots;       ///< likewise
+    std::shared_ptr<PinnedRayList> pinned_rays; ///< made when the first are pinned
     std::shared_ptr<Timeline> timeline;         ///< made with the first frame
     std::shared_ptr<ParameterSweep> sweep;      ///< made when the first is asked for
     std::shared_ptr<StabilityRun> stability;    ///< likewise
     bool redraw_panels = false; ///< set each frame by panels that move by themselves (progress, flicker)
+
+    bool mid_frame = false; ///< the panels are drawn between two passes of a frame: the graph must not change
+    float frame_share = 0;  ///< of its passes that are done
+    std::vector<std::function<void()>> after_frame;    ///< what waits for its end,
+    std::map<std::string, std::string> waiting_values; ///< and the parameters that are then set
 
     bool show_keys = false;
     WindowState window;
 
     /// Something changed: render again.
     void redraw() { redraw_frames = 2; }
+    /// Now, or when the frame that is being rendered has ended: for what changes the graph.
+    void change_graph(std::function<void()> action) {
+        if (!mid_frame) return action();
+        after_frame.push_back(std::move(action));
+    }
     void say(const std::string& text, bool error = false) { notice = text, notice_is_error = error; }
 };
 

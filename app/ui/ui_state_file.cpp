@@ -93,6 +93,11 @@ WindowState state_from(const json& root) {
     get_size(root, "window", state.size, 320);
     get(root, "maximized", state.maximized);
     get_number(root, "interface_scale", state.interface_scale, 0.5f, 3);
+    get(root, "swapped", state.layout.swapped);
+    for (const auto& [tab, name] : root.value("tab_places", json::object()).items()) {
+        const auto known = std::find(k_tab_places.begin(), k_tab_places.end(), name.get<std::string>());
+        if (known != k_tab_places.end()) state.tab_places[tab] = TabPlace(known - k_tab_places.begin());
+    }
     get(root, "left_tab", state.left_tab);
     get(root, "upper_tab", state.upper_tab);
     get(root, "lower_tab", state.lower_tab);
@@ -145,6 +150,10 @@ std::string window_state_text(const WindowState& state) {
     root["window"] = {state.size.x, state.size.y};
     root["maximized"] = state.maximized;
     root["interface_scale"] = state.interface_scale;
+    root["swapped"] = state.layout.swapped;
+    root["tab_places"] = json::object();
+    for (const auto& [tab, place] : state.tab_places)
+        root["tab_places"][tab] = k_tab_places[size_t(place)];
     root["left_tab"] = state.left_tab;
     root["upper_tab"] = state.upper_tab;
     root["lower_tab"] = state.lower_tab;

@@ -2,6 +2,7 @@
 
 #include "app/hosts/window.h"
 #include "app/ui/live_comparison.h"
+#include "app/ui/pinned_rays.h"
 #include "app/ui/snapshots.h"
 #include "app/ui/style.h"
 #include "app/ui/viewed.h"
@@ -17,6 +18,7 @@ namespace bounce {
 
 void Viewport::release_gpu() {
     view_.reset();
+    pair_ = nullptr;
     drawn_texture_ = 0;
     drawn_frame_ = ~0ull;
 }
@@ -24,6 +26,9 @@ void Viewport::release_gpu() {
 const GpuTexture* Viewport::texture_to_show(PanelContext& context) {
     const Graph& graph = context.session.graph();
     bool plain = context.ui.hovered.empty() && context.ui.pinned.empty();
+    // Half a frame is no picture to compare.
+    if (context.ui.mid_frame && plain && pair_) return pair_;
+    pair_ = nullptr;
     caption_.clear();
     if (context.ui.comparison && plain) {
         try {
@@ -33,7 +38,7 @@ const GpuTexture* Viewport::texture_to_show(PanelContext& context) {
                 shown_ = {};
                 drawn_frame_ = ~0ull;
                 failure_.clear();
-                return pair;
+                return pair_ = pair;
             }
         } catch (const std::exception& problem) {
             context.ui.say(problem_text(problem), true); // the graph's own picture is shown instead
@@ -248,7 +253,7 @@ void Viewport::draw(PanelContext& context, const Area& area, Window& window) {
     Area picture = place_picture(context, area, texels);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.085f, 0.085f, 0.085f, 1));
-    begin_area("##viewport", area,
+    begin_area(k_picture_window, area,
                ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
     ImGui::SetCursorScreenPos(area.min);
     ImGui::InvisibleButton("picture", area.size,
@@ -283,6 +288,7 @@ void Viewport::draw(PanelContext& context, const Area& area, Window& window) {
     }
     note_rectangle("viewport", picture.min.x, picture.min.y, picture.min.x + picture.size.x,
                    picture.min.y + picture.size.y);
+    draw_pinned_rays(context, picture);
     const bool taken = gizmo_.draw(context, picture, hovered, pressed, active);
     move_camera(context, picture, hovered && !taken, active && !taken, pressed && !taken, window);
     overlay(context, area, picture);

@@ -32,9 +32,10 @@ class Viewport {
     void overlay(PanelContext& context, const Area& area, const Area& picture) const;
 
     std::unique_ptr<TextureView> view_;
-    ViewerSettings shown_; ///< of the last draw
-    std::string failure_;  ///< why there is no picture
-    std::string caption_;  ///< what is compared, when a comparison is shown
+    ViewerSettings shown_;             ///< of the last draw
+    std::string failure_;              ///< why there is no picture
+    const GpuTexture* pair_ = nullptr; ///< what is compared, of the comparison
+    std::string caption_;              ///< what is compared, when a comparison is shown
     uint64_t drawn_frame_ = ~0ull;
     GLuint drawn_texture_ = 0;
     CameraControl control_;

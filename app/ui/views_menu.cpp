@@ -2,6 +2,7 @@
 
 #include "app/debug_views.h"
 #include "app/ui/marks.h"
+#include "app/ui/pinned_rays.h"
 #include "app/ui/texture_view.h"
 #include "app/ui/viewed.h"
 #include "app/ui/widget_rects.h"
@@ -156,6 +157,7 @@ void draw_views_menu(PanelContext& context, const Area& area) {
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::PopStyleVar();
+    keep_over_picture();
     const std::string& pinned = context.ui.pinned;
     if (ImGui::Button(fmt::format("view: {}###open", pinned.empty() ? "final picture" : pinned).c_str()))
         ImGui::OpenPopup("list");
@@ -179,6 +181,7 @@ void draw_views_menu(PanelContext& context, const Area& area) {
             show_tooltip("1: alone. Less: over the final picture.");
         }
     }
+    draw_pin_buttons(context, pinned);
     if (ImGui::BeginPopup("list")) {
         draw_list(context);
         ImGui::EndPopup();

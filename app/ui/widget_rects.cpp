@@ -2,6 +2,7 @@
 
 #include "app/ui/light_place.h"
 #include "app/ui/live_comparison.h"
+#include "app/ui/pinned_rays.h"
 #include "app/ui/settings_key.h"
 #include "app/ui/snapshots.h"
 #include "app/ui/timeline.h"
@@ -58,6 +59,8 @@ void end_widget_frame(const PanelContext& context) {
     json["notice_is_error"] = context.ui.notice_is_error;
     json["last_capture"] = context.ui.window.capture.last;
     json["pinned"] = context.ui.pinned;
+    json["pinned_rays"] = context.ui.pinned_rays ? context.ui.pinned_rays->all.size() : 0;
+    json["mid_frame"] = context.ui.mid_frame;
     json["keys_shown"] = context.ui.show_keys;
     json["undo"] = context.undo.next_undo();
     json["problems"] = nlohmann::json::array();

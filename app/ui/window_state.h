@@ -5,6 +5,7 @@
 #include "scene/material_model.h"
 #include "scene/scene.h"
 
+#include <array>
 #include <functional>
 #include <map>
 #include <optional>
@@ -14,9 +15,17 @@
 
 namespace bounce {
 
-/// Widths and heights in interface units (pixels at a content scale of 1).
+/// Where a tab of panels is: the left column, the halves of the right one, the row below the picture.
+enum class TabPlace { left, upper, lower, bottom };
+inline constexpr std::array<const char*, 4> k_tab_places = {"left", "upper", "lower", "bottom"};
+inline constexpr std::array<const char*, 4> k_tab_place_titles = {
+    "the column of the scene", "the graph's column, above", "the graph's column, below", "below the picture"};
+
+/// Widths and heights in interface units (pixels at a content scale of 1). Names are those of the columns as they are
+/// unless a person swaps them.
 struct LayoutState {
     float left = 290, right = 350;
+    bool swapped = false;      ///< the left column is on the right
     float right_split = 0.47f; ///< share of the right column's height that its upper half has
     float bottom_height = 260;
     bool show_left = true, show_right = true, show_bottom = false;
@@ -66,7 +75,8 @@ struct WindowState {
     PictureSizing sizing;
     glm::ivec2 size{1280, 720}; ///< of the window, in screen coordinates
     bool maximized = false;
-    float interface_scale = 1; ///< a person's factor on top of the display's
+    float interface_scale = 1;                  ///< a person's factor on top of the display's
+    std::map<std::string, TabPlace> tab_places; ///< of those that were moved
     std::string left_tab = "Scene", upper_tab = "Graph", lower_tab = "Parameters", bottom_tab = "Nodes";
     std::string shot, graph; ///< of the last run
     std::vector<Bookmark> bookmarks;
@@ -78,6 +88,7 @@ struct WindowState {
 
     // Not kept between runs.
     SceneBaseline opened;
+    std::string discarding;       ///< edits of the shot that a person is asked about; empty: no question
     std::string select_tab;       ///< tab to bring to the front at the next frame
     float image_zoom = 1;         ///< of the viewport's picture, by Ctrl + wheel
     glm::vec2 image_centre{0.5f}; ///< part of the picture in the viewport's middle
@@ -88,8 +99,14 @@ struct WindowState {
     void ask(std::function<void()> action) { later.push_back(std::move(action)); }
 };
 
-/// Shows that tab below the picture, or hides the row that it is the front of.
+/// Shows that tab below the picture, or hides the row that it is the front of. One that was moved elsewhere is shown
+/// there.
 inline void toggle_bottom(WindowState& window, const std::string& tab) {
+    if (const auto moved = window.tab_places.find(tab); moved != window.tab_places.end()) {
+        (moved->second == TabPlace::left ? window.layout.show_left : window.layout.show_right) = true;
+        window.select_tab = tab;
+        return;
+    }
     window.layout.show_bottom = !window.layout.show_bottom || window.bottom_tab != tab;
     if (window.layout.show_bottom) window.select_tab = tab;
 }

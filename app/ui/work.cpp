@@ -254,6 +254,13 @@ void keep_work(PanelContext& context) {
     remember(window.work.graphs, graph_key(context.session), graph_work(context.session));
 }
 
+std::string edits_of_shot(PanelContext& context) {
+    const SceneBaseline& opened = context.ui.window.opened;
+    const json work = shot_work(context.session, opened);
+    if (work.size() == size_t(work.contains("camera"))) return {};
+    return describe_work(context.session, opened, work);
+}
+
 std::string restore_shot_work(PanelContext& context) {
     auto& shots = context.ui.window.work.shots;
     const auto found = shots.find(shot_key(context.session));

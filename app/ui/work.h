@@ -18,6 +18,9 @@ std::string graph_key(const Session& session);
 /// Remembers the present work on the shot and the graph in ui.window.work; where there is none, forgets it.
 void keep_work(PanelContext& context);
 
+/// What is edited of the shot, in words: "the camera, 1 light"; empty: nothing but the camera, which is soon put back.
+std::string edits_of_shot(PanelContext& context);
+
 /// Puts back what is kept of the shot, which was just opened. Returns in words what it is: "the camera, 1 light";
 /// empty: nothing. What does not fit the shot any more is forgotten, and told as an error.
 std::string restore_shot_work(PanelContext& context);

@@ -54,6 +54,7 @@ class ViewerApp {
     void follow_camera(double now);
     void note_camera();
     void render();
+    bool is_slow() const;
     void tell_problems();
     void recover_from_reset();
     void make_gpu_again();
@@ -65,7 +66,12 @@ class ViewerApp {
     void forget_figures(double now);
     double next_measurement() const;
     bool time_to_measure(double now);
-    void render_frame();
+    bool render_frame();
+
+    // viewer_slow_frame.cpp: the panels answer while a frame takes its time
+    BetweenPasses between_passes();
+    bool answer(size_t passes_done);
+    void finish_slow_frame();
 
     // viewer_draw.cpp
     /// A frame of the panels; one that is not `shown` only takes input.
@@ -90,18 +96,20 @@ class ViewerApp {
     Viewport viewport_;
     Palette palette_;
 
-    std::vector<KeyPress> keys_; ///< of this frame
-    std::string kept_state_;     ///< as it was written last
-    bool keep_due_ = false;      ///< something was drawn since
+    std::vector<KeyPress> keys_;         ///< of this frame
+    std::vector<KeyPress> waiting_keys_; ///< for the end of the frame that is being rendered
+    std::string kept_state_;             ///< as it was written last
+    bool keep_due_ = false;              ///< something was drawn since
 
     int gui_frames_ = 4;       ///< still to be drawn: ImGui settles over a few
     bool later_shown_ = false; ///< the notice of what run_later_actions() will do has been on the screen
     double next_poll_ = 0, next_play_ = 0;
     glm::ivec2 fitting_{0}; ///< a size that the picture is to have, once it has stayed so
     double fitting_since_ = 0;
-    float motion_share_ = 1; ///< of the width: less while something moves on a slow machine
-    float whole_ms_ = 0;     ///< of the last frame at the whole size in which nothing was planned
-    double moved_at_ = -1;   ///< when something moved last
+    float motion_share_ = 1;                    ///< of the width: less while something moves on a slow machine
+    float whole_ms_ = 0;                        ///< of the last frame at the whole size in which nothing was planned
+    double moved_at_ = -1;                      ///< when something moved last
+    double frame_began_ = 0, panels_drawn_ = 0; ///< of the frame that is being rendered
 
     std::optional<Camera> rested_camera_; ///< that undo goes back to; empty: the shot's
     std::string rested_shot_;             ///< of which it is

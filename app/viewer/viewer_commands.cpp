@@ -10,6 +10,30 @@
 
 namespace bounce {
 
+/// What changes neither the session nor what is on the GPU, and so can be done while a frame is rendered.
+static bool is_of_the_window(KeyCommand command) {
+    switch (command) {
+    case KeyCommand::show_keys:
+    case KeyCommand::palette:
+    case KeyCommand::show_log:
+    case KeyCommand::show_timeline:
+    case KeyCommand::show_nodes:
+    case KeyCommand::show_left:
+    case KeyCommand::show_right:
+    case KeyCommand::swap_columns:
+    case KeyCommand::quit:
+    case KeyCommand::play:
+    case KeyCommand::render_always:
+    case KeyCommand::add_bookmark:
+    case KeyCommand::reset_zoom:
+    case KeyCommand::lock_cursor:
+    case KeyCommand::unpin:
+        return true;
+    default:
+        return false;
+    }
+}
+
 void ViewerApp::run_command(const KeyPress& key) {
     const std::string& chord = key.chord;
     // While text is typed, keys are letters; but a function key is never part of a text.
@@ -19,6 +43,7 @@ void ViewerApp::run_command(const KeyPress& key) {
     KeyCommand command = command_of(chord);
     if (command == KeyCommand::none) return;
     gui_frames_ = 4;
+    if (ui_.mid_frame && !is_of_the_window(command)) return waiting_keys_.push_back(key);
     attempt([&] {
         handle_time(command);
         handle_camera(command, chord);
@@ -157,6 +182,9 @@ void ViewerApp::handle_window(KeyCommand command) {
         break;
     case KeyCommand::show_right:
         ui_.window.layout.show_right = !ui_.window.layout.show_right;
+        break;
+    case KeyCommand::swap_columns:
+        ui_.window.layout.swapped = !ui_.window.layout.swapped;
         break;
     case KeyCommand::fullscreen:
         window_->toggle_fullscreen();

@@ -1,6 +1,7 @@
 // The panels in their places.
 #include "app/panels/panel.h"
 #include "app/panels/parameter_edit.h"
+#include "app/ui/discard_prompt.h"
 #include "app/ui/edit.h"
 #include "app/ui/imgui_stack.h"
 #include "app/ui/light_banner.h"
@@ -24,22 +25,46 @@ namespace {
 struct Tab {
     const char* name;
     void (*draw)(PanelContext&);
+    TabPlace home; ///< until a person moves it
 };
 
-const std::vector<Tab> k_left = {{"Scene", draw_scene_panel},
-                                 {"Camera", draw_camera_panel},
-                                 {"Compare", draw_compare_panel},
-                                 {"Capture", draw_capture_panel},
-                                 {"Snapshots", draw_snapshots_panel}};
-const std::vector<Tab> k_upper = {
-    {"Graph", draw_graph_panel}, {"Resources", draw_resources_panel}, {"Shaders", draw_shaders_panel}};
-const std::vector<Tab> k_lower = {{"Parameters", draw_parameters_panel},
-                                  {"Pixel", draw_inspector_panel},
-                                  {"Cones", draw_cones_panel},
-                                  {"Stability", draw_stability_panel}};
+const std::vector<Tab> k_tabs = {{"Scene", draw_scene_panel, TabPlace::left},
+                                 {"Camera", draw_camera_panel, TabPlace::left},
+                                 {"Compare", draw_compare_panel, TabPlace::left},
+                                 {"Capture", draw_capture_panel, TabPlace::left},
+                                 {"Snapshots", draw_snapshots_panel, TabPlace::left},
+                                 {"Graph", draw_graph_panel, TabPlace::upper},
+                                 {"Resources", draw_resources_panel, TabPlace::upper},
+                                 {"Shaders", draw_shaders_panel, TabPlace::upper},
+                                 {"Parameters", draw_parameters_panel, TabPlace::lower},
+                                 {"Pixel", draw_inspector_panel, TabPlace::lower},
+                                 {"Cones", draw_cones_panel, TabPlace::lower},
+                                 {"Stability", draw_stability_panel, TabPlace::lower},
+                                 {"Nodes", draw_nodes_panel, TabPlace::bottom},
+                                 {"Over time", draw_time_panel, TabPlace::bottom},
+                                 {"Log", draw_log_panel, TabPlace::bottom}};
 
-const std::vector<Tab> k_bottom = {
-    {"Nodes", draw_nodes_panel}, {"Over time", draw_time_panel}, {"Log", draw_log_panel}};
+TabPlace place_of(const Tab& tab, const WindowState& window) {
+    const auto moved = window.tab_places.find(tab.name);
+    return moved == window.tab_places.end() ? tab.home : moved->second;
+}
+
+/// The menu of a tab, by which it goes elsewhere.
+void draw_tab_menu(const Tab& tab, WindowState& window) {
+    if (!ImGui::BeginPopupContextItem(tab.name)) return;
+    const TabPlace place = place_of(tab, window);
+    for (int i = 0; i < int(k_tab_places.size()); ++i) {
+        const std::string text = fmt::format("Move to {}", k_tab_place_titles[size_t(i)]);
+        if (ImGui::MenuItem(text.c_str(), nullptr, false, place != TabPlace(i))) {
+            window.tab_places[tab.name] = TabPlace(i);
+            if (TabPlace(i) == tab.home) window.tab_places.erase(tab.name);
+            if (TabPlace(i) == TabPlace::bottom) window.layout.show_bottom = true;
+            window.select_tab = tab.name;
+        }
+        note_widget(fmt::format("tab.{}.to_{}", tab.name, k_tab_places[size_t(i)]));
+    }
+    ImGui::EndPopup();
+}
 
 /// A panel in which something goes wrong says so, and the frame goes on.
 void draw_panel(const Tab& tab, PanelContext& context) {
@@ -53,18 +78,22 @@ void draw_panel(const Tab& tab, PanelContext& context) {
 }
 
 /// `shown`: the tab in front; changed by a person, or by what asks for a tab.
-void draw_tabs(const char* name, const Area& area, const std::vector<Tab>& tabs, std::string& shown, bool first,
-               PanelContext& context) {
+void draw_tabs(TabPlace place, const Area& area, std::string& shown, bool first, PanelContext& context) {
     if (!area.visible()) return;
     std::string& asked = context.ui.window.select_tab;
-    begin_area(name, area);
+    begin_area(fmt::format("##{}", k_tab_places[size_t(place)]).c_str(), area);
     if (ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_NoTabListScrollingButtons)) {
-        std::string front;
-        for (const Tab& tab : tabs) {
-            bool select = asked == tab.name || (first && shown == tab.name);
+        std::string front, wanted = first ? shown : "";
+        const auto here = [&](const Tab& tab) { return place_of(tab, context.ui.window) == place; };
+        for (const Tab& tab : k_tabs)
+            if (here(tab) && asked == tab.name) wanted = asked;
+        for (const Tab& tab : k_tabs) {
+            if (!here(tab)) continue;
+            bool select = wanted == tab.name;
             bool open = ImGui::BeginTabItem(tab.name, nullptr, select ? ImGuiTabItemFlags_SetSelected : 0);
             note_widget(std::string("tab.") + tab.name);
-            if (asked == tab.name) asked.clear();
+            draw_tab_menu(tab, context.ui.window);
+            if (select && asked == tab.name) asked.clear();
             if (!open) continue;
             front = tab.name;
             ImGui::BeginChild("panel");
@@ -97,9 +126,7 @@ void ViewerApp::draw(bool shown) {
     window_->begin_frame();
     take_keys();
     // A person sees the answer of the panels before a frame that takes its time.
-    constexpr float k_slow_frame = 100; // milliseconds
-    const bool slow = !ui_.frame_times.empty() && ui_.frame_times.back().ms > k_slow_frame;
-    shown = shown || (slow && !window_->has_input());
+    shown = shown || (is_slow() && !window_->has_input());
     begin_widget_frame();
     begin_edit_frame();
     ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -114,8 +141,9 @@ void ViewerApp::draw(bool shown) {
         draw_status_bar(panels, areas.status, window_->capabilities());
         draw_keys_window(panels);
         palette_.draw(panels);
+        draw_discard_prompt(panels);
         // What was typed into a row that is not drawn any more (another tab, a filter) was left, too.
-        if (!ui_.edit.name.empty() && !ImGui::IsAnyItemActive()) finish_edit(panels);
+        if (!ui_.edit.name.empty() && !ImGui::IsAnyItemActive() && !ui_.mid_frame) finish_edit(panels);
         if (shown) end_widget_frame(panels);
     });
     stack.unwind(); // nothing to do unless an exception ended the above
@@ -128,10 +156,10 @@ void ViewerApp::draw_panels(PanelContext& panels, const Areas& areas) {
     ui_.hovered.clear();
     viewed().wants_histogram = false;
     if (ui_.timeline) ui_.timeline->wants_change = false;
-    draw_tabs("##left", areas.left, k_left, ui_.window.left_tab, first, panels);
-    draw_tabs("##upper", areas.upper_right, k_upper, ui_.window.upper_tab, first, panels);
-    draw_tabs("##lower", areas.lower_right, k_lower, ui_.window.lower_tab, first, panels);
-    draw_tabs("##bottom", areas.bottom, k_bottom, ui_.window.bottom_tab, first_below, panels);
+    draw_tabs(TabPlace::left, areas.left, ui_.window.left_tab, first, panels);
+    draw_tabs(TabPlace::upper, areas.upper_right, ui_.window.upper_tab, first, panels);
+    draw_tabs(TabPlace::lower, areas.lower_right, ui_.window.lower_tab, first, panels);
+    draw_tabs(TabPlace::bottom, areas.bottom, ui_.window.bottom_tab, first_below, panels);
     first = false;
     first_below = !areas.bottom.visible();
 }

@@ -66,13 +66,17 @@ bool ViewerApp::time_to_measure(double now) {
     return true;
 }
 
-void ViewerApp::render_frame() {
+/// Returns whether it was rendered to its end.
+bool ViewerApp::render_frame() {
     // What is measured runs also where its inputs have not changed.
     ParameterValue& rebuild = session_->graph().model().graph_parameters().find(k_rebuild)->value;
     const ParameterValue chosen = rebuild;
     if (std::exchange(measuring_, false)) rebuild = int(Rebuild::every_frame);
-    attempt([&] { session_->render(); });
+    bool whole = true;
+    attempt([&] { whole = session_->render(false, between_passes()); });
     rebuild = chosen;
+    finish_slow_frame();
+    return whole;
 }
 
 } // namespace bounce

@@ -144,6 +144,7 @@ void ViewerApp::handle_events() {
 /// Each step of what a person did gets a frame of the panels, one after another; what they change is rendered once.
 void ViewerApp::take_input() {
     if (window_->framebuffer_size().x <= 0) window_->drop_input();
+    if (!ui_.mid_frame) keys_.insert(keys_.begin(), waiting_keys_.begin(), waiting_keys_.end()), waiting_keys_.clear();
     for (;;) {
         for (const KeyPress& key : std::exchange(keys_, {}))
             run_command(key);
@@ -242,13 +243,19 @@ bool ViewerApp::render_if_wanted() {
 
 void ViewerApp::render() {
     follow_settings(seconds_now());
-    render_frame();
+    if (!render_frame()) return ui_.redraw();
     follow_plan(seconds_now());
     ++rendered_;
     tell_problems();
     if (!ui_.window.capture.recording) return;
     PanelContext panels = context();
     attempt([&] { record_frame(panels); });
+}
+
+/// Of the last frame.
+bool ViewerApp::is_slow() const {
+    constexpr float k_slow_frame = 100; // milliseconds
+    return !ui_.frame_times.empty() && ui_.frame_times.back().ms > k_slow_frame;
 }
 
 /// Says once when shaders or the graph break, and when they are whole again.

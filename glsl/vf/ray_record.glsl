@@ -1,6 +1,6 @@
 #ifndef VF_RAY_RECORD_GLSL
 #define VF_RAY_RECORD_GLSL
-// What is kept of the rays of one texel of the low resolution.
+// What is kept of the rays of one texel of the low resolution. passes/vf/ray_record.h mirrors it.
 const int k_max_recorded_rays = 64;
 
 struct InspectedFan {

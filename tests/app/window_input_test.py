@@ -10,7 +10,7 @@ from window_driver import PICTURE, WindowTest
 
 SLOW = """layout(local_size_x = 8, local_size_y = 8) in;
 layout(FORMAT_out_radiance) uniform image2D out_radiance;  //! ordered: each has its own texel
-uniform int rounds = 40000;  //! [1, 60000] how much it works
+uniform int rounds = 40000;  //! [0, 60000] how much it works
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     vec4 value = imageLoad(out_radiance, texel);
@@ -77,6 +77,51 @@ class WindowInput(WindowTest):
         for axis in range(3):
             self.assertAlmostEqual(slowly["position"][axis], turned["position"][axis], 4)
 
+    def test_the_panels_answer_while_a_frame_is_rendered(self):
+        """A frame of several slow passes is cut between them: what is asked meanwhile is seen before it ends, and what changes
+        the graph takes effect at its end."""
+        (self.root / "glsl/user").mkdir()
+        (self.root / "glsl/user/slow.comp").write_text(SLOW)
+        (self.root / "assets/graphs/slow.json").write_text(json.dumps({"version": 1, "extends": "direct", "passes": [
+            {"before": "tonemap", "id": f"slow{i}", "type": "compute", "shader": "user/slow.comp"} for i in range(6)]}))
+        self.open(self.shot, *SMALL, "--graph", "slow", "--size", "%dx%d" % PICTURE, "--set", "graph.rebuild=every_frame")
+        places = {widget: self.place(widget) for widget in ("tab.Camera", "graph.enabled.slow0")}
+        self.move(*self.place("tab.Scene"))
+
+        def begin():
+            """A frame that has begun, with its number."""
+            self.wait(lambda state: not state["mid_frame"], "the end of a frame")
+            rendered = self.state()["rendered"]
+            self.input("key", "period")
+            self.wait(lambda state: state["mid_frame"] and "status.frame_share" in state["widgets"], "a frame on its way")
+            return rendered
+
+        def click(widget):
+            self.events("mousemove", *places[widget], "click", 1)
+
+        rendered = begin()
+        click("tab.Camera")
+        state = self.wait(lambda state: "camera.play" in state["widgets"], "the tab")
+        self.assertTrue(state["mid_frame"])
+        self.assertLessEqual(state["rendered"], rendered + 1)
+        # A pass that is switched off in the midst of a frame runs to its end, and not in the next.
+        self.wait(lambda state: not state["mid_frame"] and state["rendered"] > rendered, "the end of the frame")
+        begin()
+        click("graph.enabled.slow0")
+        self.wait(lambda state: "slow0" not in state["times"]["ms"] and state["undo"] == "switch off slow0", "the pass that is off")
+        self.assertNotIn("[error]", self.said())
+        # Two clicks are two, whatever the frame does.
+        begin()
+        click("graph.enabled.slow0")
+        click("graph.enabled.slow0")
+        self.wait(lambda state: not state["mid_frame"], "the end of the frame")
+        self.wait(lambda state: "slow0" not in state["times"]["ms"] and state["undo"] == "switch off slow0", "off again")
+        # A window that is closed does not wait for the frame.
+        begin()
+        self.input("key", "ctrl+q")
+        self.wait_for_exit()
+        self.assertNotIn("[error]", self.said())
+
     def test_what_is_typed_while_a_frame_is_slow(self):
         self.open_slow()
         camera = self.state()["camera"]
@@ -126,6 +171,8 @@ class WindowInput(WindowTest):
 
         # What was taken back does not come again.
         self.input("key", "F5")
+        self.wait(lambda state: "discard.yes" in state["widgets"], "the question")
+        self.input("key", "Return")
         self.wait(lambda state: state["notice"].startswith("opened"), "the shot as it is in its file")
         self.assertNotEqual(self.state()["lights"], left["lights"])
         self.assertEqual(self.state()["camera"], camera)

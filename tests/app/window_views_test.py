@@ -32,6 +32,76 @@ class WindowViews(WindowTest):
                         "dispatch": "debug.ramp", "enabled": False}]}))
         self.open_small("--graph", "viewed")
 
+    def test_pinned_rays_stay_in_the_scene(self):
+        self.open_small("--graph", "ldm_ao", "--set", "ldm.maps=16", "--set", "ldm.resolution=32")
+        self.click("tab.Cones")
+        self.click("cones.on")
+        self.move(*self.place("viewport"))
+        self.click("tab.Cones")
+        self.click("cones.draw")
+        self.wait(lambda state: state["pinned"] == "debug.rays_view" and "views.pin_rays" in state["widgets"], "the view of the rays")
+        self.click("views.pin_rays")
+        state = self.wait(lambda state: state["pinned_rays"] == 1 and "views.unpin_rays" in state["widgets"], "the pinned rays")
+        self.assertRegex(state["notice"], r"^pinned \d+ rays$")
+        self.move(*self.place("viewport"))
+        self.input("key", "Escape")  # the final picture, and the rays over it
+        self.wait(lambda state: state["pinned"] == "", "the final picture")
+
+        def orange():
+            """Pixels of the screen with the colour of rays that hit."""
+            x0, y0, x1, y1 = (round(v) for v in self.state()["widgets"]["viewport"])
+            self.wait(lambda state: not state["mid_frame"], "rest")
+            rows = self.display.pixels(x0, y0, x1, y1)
+            return {(x, y) for y, row in enumerate(rows) for x, (b, g, r) in enumerate(row) if r > 150 and r > g + 60 and g > b + 40}
+        before = orange()
+        self.assertGreater(len(before), 20)
+        camera = self.state()["camera"]
+        self.drag("viewport", 0.5, 0.6)
+        self.wait(lambda state: state["camera"] != camera, "another camera")
+        self.assertEqual(self.state()["pinned_rays"], 1)
+        after = orange()
+        self.assertGreater(len(after), 20)
+        self.assertNotEqual(before, after)
+        self.click("views.unpin_rays")
+        self.wait(lambda state: state["pinned_rays"] == 0, "no pinned rays")
+
+    def test_tabs_and_columns_move(self):
+        """And are there again in the next run."""
+        self.open_small()
+        state = self.state()
+        self.assertLess(state["widgets"]["tab.Scene"][2], state["widgets"]["viewport"][0])
+        self.assertGreater(state["widgets"]["tab.Graph"][0], state["widgets"]["viewport"][2])
+        self.input("key", "F4")
+        state = self.wait(lambda state: state["widgets"]["tab.Scene"][0] > state["widgets"]["viewport"][2], "swapped columns")
+        self.assertLess(state["widgets"]["tab.Graph"][2], state["widgets"]["viewport"][0])
+        # The bar beside a column follows the pointer on either side.
+        x, y = SIZE[0] - 290 - 2, 300
+        left = state["widgets"]["tab.Scene"][0]
+        self.move(x, y)
+        self.input("mousedown", 1)
+        self.move(x - 40, y)
+        self.input("mouseup", 1)
+        self.wait(lambda state: abs(state["widgets"]["tab.Scene"][0] - (left - 40)) <= 4, "a wider column")
+
+        self.move(*self.place("tab.Pixel"))
+        self.input("click", 3)
+        self.click("tab.Pixel.to_left")
+        state = self.wait(lambda state: state["widgets"]["tab.Pixel"][0] > state["widgets"]["viewport"][2], "the tab in the other column")
+        self.move(*self.place("tab.Camera"))
+        self.input("click", 3)
+        self.click("tab.Camera.to_bottom")
+        self.wait(lambda state: state["widgets"]["tab.Camera"][1] > state["widgets"]["viewport"][3] and "camera.position" in state["widgets"],
+                  "the tab below the picture, and in front")
+        self.move(*self.place("viewport"))
+        self.input("key", "ctrl+q")
+        self.wait_for_exit()
+
+        self.open_small()
+        state = self.state()
+        self.assertGreater(state["widgets"]["tab.Scene"][0], state["widgets"]["viewport"][2])
+        self.assertGreater(state["widgets"]["tab.Pixel"][0], state["widgets"]["viewport"][2])
+        self.assertGreater(state["widgets"]["tab.Camera"][1], state["widgets"]["viewport"][3])
+
     def test_the_graph_as_boxes_and_wires(self):
         self.open_small()
         self.input("key", "n")

@@ -50,6 +50,13 @@ class WindowWork(WindowTest):
         self.assertEqual(state["lights"], left["lights"])
         self.assertEqual(state["camera"], left["camera"])
         self.input("key", "F5")
+        self.wait(lambda state: "discard.yes" in state["widgets"], "the question")
+        self.input("key", "Escape")
+        self.wait(lambda state: "discard.yes" not in state["widgets"], "the end of the question")
+        self.assertEqual(self.state()["lights"], left["lights"])
+        self.input("key", "F5")
+        self.wait(lambda state: "discard.yes" in state["widgets"], "the question again")
+        self.input("key", "Return")
         self.wait(lambda state: state["lights"] != left["lights"] and state["camera"] == camera, "the shot as it is in its file")
 
     def test_escape_closes_what_is_open_and_nothing_else(self):
