@@ -94,7 +94,8 @@ WindowState state_from(const json& root) {
     get(root, "maximized", state.maximized);
     get_number(root, "interface_scale", state.interface_scale, 0.5f, 3);
     get(root, "swapped", state.layout.swapped);
-    for (const auto& [tab, name] : root.value("tab_places", json::object()).items()) {
+    const json places = root.value("tab_places", json::object());
+    for (const auto& [tab, name] : places.items()) {
         const auto known = std::find(k_tab_places.begin(), k_tab_places.end(), name.get<std::string>());
         if (known != k_tab_places.end()) state.tab_places[tab] = TabPlace(known - k_tab_places.begin());
     }
