@@ -1,9 +1,9 @@
 // bounce tune: settings of a graph for an error, a time or a memory, as a graph that extends it.
-#include "app/experiments/tune.h"
 #include "app/capture.h"
 #include "app/commands/command.h"
 #include "app/commands/option_checks.h"
 #include "app/commands/session_options.h"
+#include "app/experiments/tune_page.h"
 #include "app/graph_preset.h"
 #include "app/hosts/headless.h"
 #include "app/origin.h"
@@ -59,6 +59,8 @@ int run(const TuneArguments& arguments) {
     const TunePoint& found = outcome.finals.size() > 1 ? outcome.finals[1] : start;
     write_file_atomically(std::filesystem::path(preset).replace_extension(".md"),
                           origin_head({origin_here()}) + "\n" + tune_markdown(settings, outcome));
+    write_file_atomically(std::filesystem::path(preset).replace_extension(".html"),
+                          tune_html(settings, outcome, origin_here()));
     SessionOptions own = settings.session;
     own.shot = settings.shots.front();
     Session session(own);
@@ -110,7 +112,7 @@ void add_tune_command(CLI::App& app, CommandFunction& chosen) {
         ->capture_default_str();
     command
         ->add_option("-o,--output", a->output,
-                     "the preset (name or .json); beside it a .md, and .points.json, from which a run goes on")
+                     "the preset (name or .json); beside it .md, .html and .points.json, from which a run goes on")
         ->type_name("FILE")
         ->required();
     command->callback([a, &chosen] { chosen = [a] { return run(*a); }; });

@@ -6,6 +6,7 @@
 #include "app/experiments/table_file.h"
 #include "core/error.h"
 #include "core/image.h"
+#include "core/json_text.h"
 #include "core/printable.h"
 #include "core/text.h"
 
@@ -63,8 +64,9 @@ std::string curve_svg(const StabilityCase& which, const StabilityCell& cell) {
         line += fmt::format("{:.1f},{:.1f} ", x, y(cell.curve[i]));
         title += fmt::format("{} {}: {}\n", which.step, which.ladder[i], stability_text(which, cell.curve[i], false));
     }
-    std::string out = fmt::format("<svg width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\"><title>{2}</title>", width,
-                                  height, escape_markup(title));
+    std::string out =
+        fmt::format("<svg class=\"curve\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\"><title>{2}</title>",
+                    width, height, escape_markup(title));
     if (marked)
         out += fmt::format("<line x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\" stroke=\"#999\" "
                            "stroke-dasharray=\"3 3\"/>",
@@ -187,31 +189,69 @@ std::vector<StabilityRow> read_stability(const std::filesystem::path& folder) {
     return rows;
 }
 
+/// What the script draws large.
+static ordered_json page_case(const StabilityRow& row) {
+    const StabilityCase& which = row.which;
+    ordered_json one = {{"name", printable(which.name)},
+                        {"quantity", quantity_text(which)},
+                        {"mark", nullptr},
+                        {"mark_text", mark_text(which)},
+                        {"step", printable(which.unit.empty() ? which.step : which.unit)},
+                        {"ladder", which.ladder},
+                        {"curves", ordered_json::array()}};
+    if (which.summary != StabilitySummary::growth) one["mark"] = which.most;
+    for (const StabilityCell& cell : row.cells) {
+        if (cell.curve.empty()) continue;
+        ordered_json texts = ordered_json::array();
+        for (double value : cell.curve)
+            texts.push_back(stability_text(which, value, false));
+        one["curves"].push_back(
+            {{"graph", printable(cell.graph)}, {"values", cell.curve}, {"texts", texts}, {"reached", cell.reached}});
+    }
+    return one;
+}
+
+/// Cells of different cases are told apart by how often the mark goes into them.
+static std::string sorted_by(const StabilityRow& row, const StabilityCell& cell) {
+    if (!cell.figure || !(row.which.most > 0)) return "";
+    return fmt::format(" data-sort=\"{:.6g}\"", std::abs(*cell.figure) / row.which.most);
+}
+
 std::string stability_html(const std::vector<StabilityRow>& rows, const Origin& origin) {
     const std::vector<std::string> graphs = graphs_of(rows);
-    std::string body = "<h1>Stability</h1>\n<p>" + escape_markup(origin_head({origin})) +
-                       "</p>\n<p>Each row is a way in which methods fail. Curves go over the case's ladder; the dashed "
-                       "line is the mark. Hover a curve for its values.</p>\n<table><tr><th>case</th><th>mark</th>";
-    for (const std::string& graph : graphs)
+    std::string body =
+        "<h1>Stability</h1>\n<p class=\"origin\">" + escape_markup(origin_head({origin})) +
+        "</p>\n<p>Each row is a way in which methods fail. Curves go over the case's ladder; the dashed line is the "
+        "mark. "
+        "Point at a curve for its values; with script it is then seen large, a click keeps it, and a click on a head "
+        "sorts by how often the mark goes into the figure.</p>\n<table class=\"sortable wide\"><tr><th>case</th>"
+        "<th class=\"plain\">mark</th>";
+    ordered_json data = {{"graphs", ordered_json::array()}, {"cases", ordered_json::array()}};
+    for (const std::string& graph : graphs) {
         body += "<th>" + escape_markup(graph) + "</th>";
+        data["graphs"].push_back(printable(graph));
+    }
     body += "</tr>\n";
     for (const StabilityRow& row : rows) {
-        body += fmt::format("<tr><td><b>{}</b><br><small>{}</small></td><td>{}<br><small>{}</small></td>",
-                            escape_markup(row.which.name), escape_markup(row.which.about),
+        body += fmt::format("<tr data-case=\"{}\"><td><b "
+                            "class=\"name\">{}</b><br><small>{}</small></td><td>{}<br><small>{}</small></td>",
+                            data["cases"].size(), escape_markup(row.which.name), escape_markup(row.which.about),
                             escape_markup(mark_text(row.which)), escape_markup(quantity_text(row.which)));
-        for (const std::string& graph : graphs) {
-            const StabilityCell* cell = cell_of(row, graph);
+        data["cases"].push_back(page_case(row));
+        for (size_t i = 0; i < graphs.size(); ++i) {
+            const StabilityCell* cell = cell_of(row, graphs[i]);
             if (!cell)
                 body += "<td></td>";
             else if (!cell->failure.empty())
-                body += fmt::format("<td><small>{}</small></td>", escape_markup(cell->failure));
+                body += fmt::format("<td data-sort=\"\"><small>{}</small></td>", escape_markup(cell->failure));
             else
-                body += fmt::format("<td class=\"{}\">{}<br>{}</td>", cell->reached ? "reached" : "missed",
+                body += fmt::format("<td class=\"{}\" data-graph=\"{}\"{}>{}{}</td>",
+                                    cell->reached ? "reached" : "missed", i, sorted_by(row, *cell),
                                     escape_markup(cell_text(row.which, *cell)), curve_svg(row.which, *cell));
         }
         body += "</tr>\n";
     }
-    return html_page("stability", ".missed{color:#a33d00}svg{display:inline-block}\n", body + "</table>\n");
+    return html_page({"stability", body + "</table>\n", json_dump(data), {"stability"}});
 }
 
 void write_stability(const std::vector<StabilityRow>& rows, const Origin& origin, const std::filesystem::path& folder) {
