@@ -128,7 +128,7 @@ std::string tune_html(const TuneSettings& settings, const TuneOutcome& outcome, 
         "<div class=\"columns\"><div class=\"plot\" id=\"plot\"></div><div class=\"card\" id=\"card\"></div></div>\n"
         "<div id=\"chosen\"></div>\n<h2>Points</h2>\n<table class=\"sortable wide points\" "
         "id=\"points\"><tr><th>settings</th>"
-        "<th></th><th>measured at</th><th>ms</th><th>error</th><th>MiB</th></tr>\n" +
+        "<th>role</th><th>measured at</th><th>ms</th><th>error</th><th>MiB</th></tr>\n" +
         table + "</table>";
     return html_page({"settings found by tune", body, json_dump(data), {"pictures", "plot", "chart"}});
 }
