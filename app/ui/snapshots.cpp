@@ -134,7 +134,7 @@ std::string snapshots_page(const Snapshots& snapshots) {
             out += fmt::format("<tr><td>{}</td><td>{:.3f}</td></tr>\n", escape_markup(pass), ms);
         out += "</table></section>\n";
     }
-    return html_page({"snapshots", out, "null", {}});
+    return html_page({"snapshots", out, "null", {"pictures", "snapshots"}});
 }
 
 } // namespace bounce

@@ -23,7 +23,7 @@ class PictureView {
     make_button(bar, '−', () => this.zoom_about(0.5, 0.5, 0.5));
     make_button(bar, 'whole picture', () => this.reset());
     this.told = make(bar, 'small', { class: 'zoom' });
-    make(bar, 'small', {}, ' Drag the divider; the wheel zooms; drag a map to move.');
+    make(bar, 'small', {}, ' Drag the divider; the wheel zooms; a drag with Shift, or of a map, moves.');
     this.divide(0.5);
     this.reset();
   }
@@ -33,7 +33,7 @@ class PictureView {
     const frame = make(pane, 'div', { class: 'frame' });
     for (const { src, name } of pictures) {
       const image = make(make(frame, 'div', { class: 'layer' }), 'img', { src, alt: name });
-      const shape = () => { 
+      const shape = () => {
         if (!image.naturalWidth) return;
         frame.style.aspectRatio = `${image.naturalWidth} / ${image.naturalHeight}`;
         pane.style.maxWidth = `calc(70vh * ${image.naturalWidth / image.naturalHeight})`; // all of it is seen at once
@@ -59,13 +59,13 @@ class PictureView {
     frame.addEventListener('pointerdown', (event) => {
       frame.setPointerCapture(event.pointerId);
       from = place(event);
-      if (divides) this.divide(from[0]);
+      if (divides && !event.shiftKey) this.divide(from[0]);
     });
     frame.addEventListener('pointermove', (event) => {
       const at = place(event);
       this.point(at, ring);
       if (!from) return;
-      if (divides) this.divide(at[0]);
+      if (divides && !event.shiftKey) this.divide(at[0]);
       else this.move((from[0] - at[0]) / this.zoom, (from[1] - at[1]) / this.zoom);
       from = at;
     });
