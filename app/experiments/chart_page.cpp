@@ -3,17 +3,11 @@
 #include "app/experiments/html_page.h"
 #include "app/experiments/report.h"
 #include "app/experiments/transport.h"
-#include "core/json_text.h"
-#include "core/printable.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <fmt/format.h>
 
 namespace bounce {
-
-using nlohmann::ordered_json;
 
 std::string chart_heading(const Metric& metric) {
     return metric.absolute.empty() ? metric_heading(metric) : metric.title;
@@ -42,11 +36,11 @@ std::vector<const Metric*> drawn_metrics(const ChartView& view) {
     return drawn;
 }
 
-ordered_json costs_of(const ChartView& view) {
-    ordered_json costs = {{{"key", "ms"}, {"title", "GPU time of a frame, ms"}},
-                          {{"key", "mib"}, {"title", "memory, MiB"}}};
-    if (!view.against.empty())
-        costs.insert(costs.begin(), ordered_json{{"key", k_against}, {"title", printable(view.against)}});
+std::vector<PageCost> costs_of(const ChartView& view) {
+    std::vector<PageCost> costs;
+    if (!view.against.empty()) costs.push_back({k_against, view.against});
+    costs.push_back({"ms", "GPU time of a frame, ms"});
+    costs.push_back({"mib", "memory, MiB"});
     return costs;
 }
 
@@ -68,55 +62,46 @@ std::string table_row(const ChartPoint& p, size_t index) {
 
 } // namespace
 
-ordered_json page_errors(const ChartView& view, bool occlusion) {
-    ordered_json errors = ordered_json::array();
+std::vector<PageError> page_errors(const ChartView& view, bool occlusion) {
+    std::vector<PageError> errors;
     for (const Metric* brief : drawn_metrics(view)) {
         const Metric& metric = metric_for(*brief, occlusion);
-        errors.push_back({{"key", brief->name},
-                          {"title", error_title(metric, occlusion)},
-                          {"share", metric.unit == MetricUnit::share}});
+        errors.push_back({brief->name, error_title(metric, occlusion), metric.unit == MetricUnit::share, "", ""});
     }
     return errors;
 }
 
-ordered_json page_point(const ChartPoint& p, const ChartView& view) {
-    ordered_json settings = ordered_json::object();
-    for (const auto& [name, value] : p.task.session.sets) // the last one set counts
-        settings[printable(name)] = printable(value);
+PagePoint page_point(const ChartPoint& p, const ChartView& view) {
+    PagePoint point;
+    point.scene = p.task.session.shot;
+    point.group = p.task.session.graph;
+    point.line = transport_text(p.transport_bounces, p.parts);
+    point.label = p.task.label();
+    point.settings = p.task.session.sets;
     for (const auto& [id, on] : p.task.session.switches)
-        settings[printable(id)] = on ? "on" : "off";
-    settings["size"] = fmt::format("{} × {}", p.task.size().x, p.task.size().y);
+        point.settings.emplace_back(id, on ? "on" : "off");
+    point.settings.emplace_back("size", fmt::format("{} × {}", p.task.size().x, p.task.size().y));
     const double mib = double(p.bytes) / 1048576.0;
-    ordered_json numbers = {{"ms", p.total_ms}, {"mib", mib}};
-    if (!view.against.empty()) numbers[k_against] = parameter_of(p, view.against);
-    ordered_json figures = ordered_json::array(), passes = ordered_json::array(); // of pairs: name and text
-    figures.push_back({"GPU time, ms", fmt::format("{:.3g}", p.total_ms)});
-    figures.push_back({"memory, MiB", fmt::format("{:.1f}", mib)});
+    point.numbers = {{"ms", p.total_ms}, {"mib", mib}};
+    if (!view.against.empty()) point.numbers.emplace_back(k_against, parameter_of(p, view.against));
+    point.figures = {{"GPU time, ms", fmt::format("{:.3g}", p.total_ms)}, {"memory, MiB", fmt::format("{:.1f}", mib)}};
     for (const Metric* metric : drawn_metrics(view)) {
-        const double error = p.error(*metric);
-        if (std::isfinite(error)) numbers[metric->name] = error;
-        figures.push_back({metric->title, metric_text(*metric, p.same_transport, p.absolute())});
+        point.numbers.emplace_back(metric->name, p.error(*metric));
+        point.figures.emplace_back(metric->title, metric_text(*metric, p.same_transport, p.absolute()));
     }
     for (const PassCost& pass : p.passes)
-        passes.push_back({printable(pass.id), fmt::format("{:.3g}", pass.median_ms)});
-    return {{"scene", printable(p.task.session.shot)},
-            {"group", printable(p.task.session.graph)},
-            {"line", transport_text(p.transport_bounces, p.parts)},
-            {"label", printable(p.task.label())},
-            {"settings", settings},
-            {"numbers", numbers},
-            {"figures", figures},
-            {"passes", passes}};
+        point.passes.emplace_back(pass.id, fmt::format("{:.3g}", pass.median_ms));
+    return point;
 }
 
 std::string chart_html(const std::vector<ChartPoint>& points, const ChartView& view) {
     bool occlusion = !points.empty();
-    ordered_json told = ordered_json::array();
+    PageChart chart;
     std::string table;
     for (const ChartPoint& p : points) {
         occlusion = occlusion && p.absolute();
-        table += table_row(p, told.size());
-        told.push_back(page_point(p, view));
+        table += table_row(p, chart.points.size());
+        chart.points.push_back(page_point(p, view));
     }
     std::string body =
         "<h1>Error against time</h1>\n<p class=\"origin\">" + escape_markup(head_of(points)) +
@@ -131,10 +116,12 @@ std::string chart_html(const std::vector<ChartPoint>& points, const ChartView& v
     for (const Metric* metric : brief_metrics())
         body += "<th>" + escape_markup(chart_heading(*metric)) + "</th>";
     body += "<th class=\"plain\">picture</th><th class=\"plain\">relative error</th></tr>\n" + table + "</table>";
-    const ordered_json data = {{"scene_title", "shot"},   {"unset", "as the graph has it"},
-                               {"costs", costs_of(view)}, {"errors", page_errors(view, occlusion)},
-                               {"error", view.metric},    {"points", told}};
-    return html_page({"error against time", body, json_dump(data), {"pictures", "plot", "chart"}});
+    chart.scene_title = "shot";
+    chart.unset = "as the graph has it";
+    chart.error = view.metric;
+    chart.costs = costs_of(view);
+    chart.errors = page_errors(view, occlusion);
+    return html_page({"error against time", body, page_chart_data(chart), {"pictures", "plot", "chart"}});
 }
 
 } // namespace bounce

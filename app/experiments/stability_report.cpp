@@ -2,11 +2,11 @@
 
 #include "app/experiments/csv.h"
 #include "app/experiments/html_page.h"
+#include "app/experiments/page_data.h"
 #include "app/experiments/svg_scatter.h"
 #include "app/experiments/table_file.h"
 #include "core/error.h"
 #include "core/image.h"
-#include "core/json_text.h"
 #include "core/printable.h"
 #include "core/text.h"
 
@@ -190,25 +190,33 @@ std::vector<StabilityRow> read_stability(const std::filesystem::path& folder) {
 }
 
 /// What the script draws large.
-static ordered_json page_case(const StabilityRow& row) {
+static std::string page_case(const StabilityRow& row) {
     const StabilityCase& which = row.which;
-    ordered_json one = {{"name", printable(which.name)},
-                        {"quantity", quantity_text(which)},
-                        {"mark", nullptr},
-                        {"mark_text", mark_text(which)},
-                        {"step", printable(which.unit.empty() ? which.step : which.unit)},
-                        {"ladder", which.ladder},
-                        {"curves", ordered_json::array()}};
-    if (which.summary != StabilitySummary::growth) one["mark"] = which.most;
+    const auto numbers = [](const std::vector<double>& values) {
+        std::vector<std::string> list;
+        for (double value : values)
+            list.push_back(data_number(value));
+        return data_list(list);
+    };
+    std::vector<std::string> curves;
     for (const StabilityCell& cell : row.cells) {
         if (cell.curve.empty()) continue;
-        ordered_json texts = ordered_json::array();
+        std::vector<std::string> texts;
         for (double value : cell.curve)
-            texts.push_back(stability_text(which, value, false));
-        one["curves"].push_back(
-            {{"graph", printable(cell.graph)}, {"values", cell.curve}, {"texts", texts}, {"reached", cell.reached}});
+            texts.push_back(data_text(stability_text(which, value, false)));
+        curves.push_back(data_object({{"graph", data_text(cell.graph)},
+                                      {"values", numbers(cell.curve)},
+                                      {"texts", data_list(texts)},
+                                      {"reached", cell.reached ? "true" : "false"}}));
     }
-    return one;
+    const bool marked = which.summary != StabilitySummary::growth;
+    return data_object({{"name", data_text(which.name)},
+                        {"quantity", data_text(quantity_text(which))},
+                        {"mark", marked ? data_number(which.most) : "null"},
+                        {"mark_text", data_text(mark_text(which))},
+                        {"step", data_text(which.unit.empty() ? which.step : which.unit)},
+                        {"ladder", numbers(which.ladder)},
+                        {"curves", data_list(curves)}});
 }
 
 /// Cells of different cases are told apart by how often the mark goes into them.
@@ -226,18 +234,18 @@ std::string stability_html(const std::vector<StabilityRow>& rows, const Origin& 
         "Point at a curve for its values; with script it is then seen large, a click keeps it, and a click on a head "
         "sorts by how often the mark goes into the figure.</p>\n<table class=\"sortable wide\"><tr><th>case</th>"
         "<th class=\"plain\">mark</th>";
-    ordered_json data = {{"graphs", ordered_json::array()}, {"cases", ordered_json::array()}};
+    std::vector<std::string> names, cases;
     for (const std::string& graph : graphs) {
         body += "<th>" + escape_markup(graph) + "</th>";
-        data["graphs"].push_back(printable(graph));
+        names.push_back(data_text(graph));
     }
     body += "</tr>\n";
     for (const StabilityRow& row : rows) {
         body += fmt::format("<tr data-case=\"{}\"><td><b "
                             "class=\"name\">{}</b><br><small>{}</small></td><td>{}<br><small>{}</small></td>",
-                            data["cases"].size(), escape_markup(row.which.name), escape_markup(row.which.about),
+                            cases.size(), escape_markup(row.which.name), escape_markup(row.which.about),
                             escape_markup(mark_text(row.which)), escape_markup(quantity_text(row.which)));
-        data["cases"].push_back(page_case(row));
+        cases.push_back(page_case(row));
         for (size_t i = 0; i < graphs.size(); ++i) {
             const StabilityCell* cell = cell_of(row, graphs[i]);
             if (!cell)
@@ -251,7 +259,10 @@ std::string stability_html(const std::vector<StabilityRow>& rows, const Origin& 
         }
         body += "</tr>\n";
     }
-    return html_page({"stability", body + "</table>\n", json_dump(data), {"stability"}});
+    return html_page({"stability",
+                      body + "</table>\n",
+                      data_object({{"graphs", data_list(names)}, {"cases", data_list(cases)}}),
+                      {"stability"}});
 }
 
 void write_stability(const std::vector<StabilityRow>& rows, const Origin& origin, const std::filesystem::path& folder) {

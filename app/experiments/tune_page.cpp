@@ -1,17 +1,14 @@
 #include "app/experiments/tune_page.h"
 
 #include "app/experiments/html_page.h"
+#include "app/experiments/page_data.h"
 #include "app/experiments/svg_scatter.h"
-#include "core/json_text.h"
-#include "core/printable.h"
 #include "core/text.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 
 namespace bounce {
-
-using nlohmann::ordered_json;
 
 namespace {
 
@@ -59,22 +56,22 @@ std::string command_of(const TuneSettings& settings, const Told& told) {
     return text + " --timings t.json -o x.exr";
 }
 
-ordered_json page_point(const TuneOutcome& outcome, const Told& told) {
-    ordered_json own = ordered_json::object(), figures = ordered_json::array();
-    for (const auto& [name, value] : outcome.own)
-        own[printable(name)] = printable(value);
-    for (const auto& [name, value] : told.point.variant.sets)
-        own[printable(name)] = printable(value);
+PagePoint page_point(const TuneOutcome& outcome, const Told& told) {
+    PagePoint point;
+    point.scene = told.stage;
+    point.group = role_name(told.role);
+    point.label = told.point.variant.text();
+    for (const auto& [name, value] : outcome.own) {
+        const auto set = told.point.variant.sets.find(name);
+        point.settings.emplace_back(name, set == told.point.variant.sets.end() ? value : set->second);
+    }
     const TuneFigures& f = told.point.figures;
-    figures.push_back({"time, ms", fmt::format("{:.3g}", f.ms)});
-    figures.push_back({"error", fmt::format("{:.2f} %", 100 * f.error)});
-    figures.push_back({"memory, MiB", fmt::format("{:.1f}", f.bytes / 1048576)});
-    ordered_json point = {
-        {"scene", told.stage}, {"group", role_name(told.role)},
-        {"line", ""},          {"label", printable(told.point.variant.text())},
-        {"settings", own},     {"numbers", {{"ms", f.ms}, {"mib", f.bytes / 1048576}, {"error", f.error}}},
-        {"figures", figures}};
-    if (told.role != TuneRole::tried) point["mark"] = role_name(told.role);
+    const double mib = f.bytes / 1048576;
+    point.numbers = {{"ms", f.ms}, {"mib", mib}, {"error", f.error}};
+    point.figures = {{"time, ms", fmt::format("{:.3g}", f.ms)},
+                     {"error", fmt::format("{:.2f} %", 100 * f.error)},
+                     {"memory, MiB", fmt::format("{:.1f}", mib)}};
+    if (told.role != TuneRole::tried) point.mark = role_name(told.role);
     return point;
 }
 
@@ -106,19 +103,16 @@ std::string tune_html(const TuneSettings& settings, const TuneOutcome& outcome, 
     add_stage(all, outcome.search.points, found, tune_first_size(settings), "first stage");
     add_stage(all, outcome.finals, found, size, "full size");
     std::string table;
-    ordered_json points = ordered_json::array();
+    PageChart chart;
     for (const Told& told : all) {
-        table += table_row(settings, told, points.size());
-        points.push_back(page_point(outcome, told));
+        table += table_row(settings, told, chart.points.size());
+        chart.points.push_back(page_point(outcome, told));
     }
-    const ordered_json data = {
-        {"scene_title", "measured at"},
-        {"unset", "–"},
-        {"costs", ordered_json::array(
-                      {{{"key", "ms"}, {"title", "time of a frame, ms"}}, {{"key", "mib"}, {"title", "memory, MiB"}}})},
-        {"errors", ordered_json::array({{{"key", "error"}, {"title", "relative RMSE"}, {"share", true}}})},
-        {"error", "error"},
-        {"points", points}};
+    chart.scene_title = "measured at";
+    chart.unset = "–";
+    chart.error = "error";
+    chart.costs = {{"ms", "time of a frame, ms"}, {"mib", "memory, MiB"}};
+    chart.errors = {{"error", "relative RMSE", true, "", ""}};
     const std::string body =
         "<h1>Settings found by tune</h1>\n<p class=\"origin\">" + escape_markup(origin_head({origin})) + "</p>\n<p>" +
         escape_markup(fmt::format("{} on {}: {} variants of {} parameters. Asked for: {}.", settings.session.graph,
@@ -130,7 +124,7 @@ std::string tune_html(const TuneSettings& settings, const TuneOutcome& outcome, 
         "id=\"points\"><tr><th>settings</th>"
         "<th>role</th><th>measured at</th><th>ms</th><th>error</th><th>MiB</th></tr>\n" +
         table + "</table>";
-    return html_page({"settings found by tune", body, json_dump(data), {"pictures", "plot", "chart"}});
+    return html_page({"settings found by tune", body, page_chart_data(chart), {"pictures", "plot", "chart"}});
 }
 
 } // namespace bounce

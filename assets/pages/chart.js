@@ -51,10 +51,9 @@ function differences(points) {
   line('scene', points.map((p) => p.scene));
   line('graph', points.map((p) => p.group));
   line('compared', points.map((p) => p.line));
-  for (const name of new Set(points.flatMap((p) => Object.keys(p.settings)))) line(name, points.map((p) => p.settings[name] ?? data.unset));
-  for (const [key, named] of [['figures', false], ['passes', true]]) {
-    const maps = points.map((p) => new Map(p[key] || []));
-    for (const name of new Set(maps.flatMap((m) => [...m.keys()]))) line(named ? name + ', ms' : name, maps.map((m) => m.get(name) ?? '–'));
+  for (const [key, unset, unit] of [['settings', data.unset, ''], ['figures', '–', ''], ['passes', '–', ', ms']]) {
+    const maps = points.map((p) => new Map(p[key]));
+    for (const name of new Set(maps.flatMap((m) => [...m.keys()]))) line(name + unit, maps.map((m) => m.get(name) ?? unset));
   }
   return lines;
 }

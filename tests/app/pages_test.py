@@ -116,7 +116,7 @@ class Pages(PageTest):
         self.assertEqual(len(data["points"]), len([one for one in measured if "ms" in one]), "all that worked")
         marks = [one.get("mark") for one in data["points"]]
         self.assertEqual(marks.count("start"), 2, "at both sizes")
-        self.assertTrue(all("hbao.steps" in one["settings"] for one in data["points"]), "the graph's own values too")
+        self.assertTrue(all("hbao.steps" in dict(one["settings"]) for one in data["points"]), "the graph's own values too")
 
     def test_comparison(self):
         page, data = self.check(self.comparison())
