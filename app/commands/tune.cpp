@@ -59,8 +59,6 @@ int run(const TuneArguments& arguments) {
     const TunePoint& found = outcome.finals.size() > 1 ? outcome.finals[1] : start;
     write_file_atomically(std::filesystem::path(preset).replace_extension(".md"),
                           origin_head({origin_here()}) + "\n" + tune_markdown(settings, outcome));
-    write_file_atomically(std::filesystem::path(preset).replace_extension(".html"),
-                          tune_html(settings, outcome, origin_here()));
     SessionOptions own = settings.session;
     own.shot = settings.shots.front();
     Session session(own);
@@ -71,6 +69,8 @@ int run(const TuneArguments& arguments) {
                     join(settings.shots, ", "), found.figures.ms, 100 * found.figures.error, settings.session.graph,
                     start.figures.ms, 100 * start.figures.error);
     write_file_atomically(preset, graph_preset_text(session, preset, about));
+    write_file_atomically(std::filesystem::path(preset).replace_extension(".html"),
+                          tune_html(settings, outcome, origin_here()));
     print("{}\n{}\n", about, preset.string());
     const bool missed = (settings.goal.error && found.figures.error > *settings.goal.error) ||
                         (settings.goal.ms && found.figures.ms > *settings.goal.ms) ||

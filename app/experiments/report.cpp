@@ -152,8 +152,8 @@ void write_report(std::vector<ChartPoint> points, const std::filesystem::path& f
     write_file_atomically(folder / "chart.csv", chart_csv(points));
     write_file_atomically(folder / "chart.json", json + "]\n");
     write_file_atomically(folder / "chart.svg", with_head(svg_scatter(points, view), points));
-    write_file_atomically(folder / "chart.html", chart_html(points, view));
     write_file_atomically(folder / "chart.md", chart_markdown(points));
+    write_file_atomically(folder / "chart.html", chart_html(points, view));
 }
 
 } // namespace bounce

@@ -157,7 +157,8 @@ class Plot {
     make(svg, 'text', { transform: `translate(14 ${top + high / 2}) rotate(-90)`, 'text-anchor': 'middle' }, this.titles.y);
     const inside = make(svg, 'svg', { x: left, y: top, width: wide, height: high }); // which clips
     this.draw_lines(inside);
-    for (const mark of [...this.marks].sort((p, q) => p.full - q.full)) this.draw_point(inside, mark);
+    const rank = (mark) => mark.full + 2 * Boolean(mark.label); // what has a name is seen above all
+    for (const mark of [...this.marks].sort((p, q) => rank(p) - rank(q))) this.draw_point(inside, mark);
     this.draw_legend();
     this.show_picked();
   }

@@ -1,7 +1,9 @@
 """Pages as the program writes them, of every kind, and files to make them from."""
 
 import base64
+import hashlib
 import json
+import re
 import shutil
 import struct
 import zlib
@@ -42,6 +44,20 @@ def point(i, graph="direct", shot="cornell", ms=10.0, error=0.2, **changes):
 # Times rise as errors fall, but for the last of `direct`, which the one before beats in both.
 POINTS = [point(0, ms=5, error=0.4), point(1, ms=10, error=0.2), point(2, ms=20, error=0.1), point(3, ms=100, error=0.15),
           point(4, EVIL, ms=7, error=0.9), point(5, shot="atrium", ms=9, error=0.3)]
+
+
+def digest(text):
+    """As a content security policy names a script or style that stands in the page."""
+    return "'sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() + "'"
+
+
+def assembled(body, scripts):
+    """A page of this body as the program would write it."""
+    asset = lambda name: (ROOT / "assets/pages" / name).read_text()
+    style, script = asset("page.css"), "".join(asset(name + ".js") for name in scripts)
+    values = {"title": "a page", "style": style, "style_source": digest(style), "body": body, "data": "null", "script": script,
+              "script_source": digest(script)}
+    return re.sub(r"\{\{(\w+)\}\}", lambda name: values[name.group(1)], asset("page.html"))
 
 
 class PageTest(ProgramTest):

@@ -8,7 +8,7 @@ import sys
 import tempfile
 import unittest
 
-from page_maker import EVIL, PageTest
+from page_maker import EVIL, POINTS, PageTest, assembled
 
 try:
     try:
@@ -320,6 +320,27 @@ class OtherPages(Browser):
         self.head("part").click()
         self.head("part").click()
         self.assertEqual(self.column(0), ["out.radiance", "out.direct"])
+
+    def test_snapshots(self):
+        """The window writes that page: the markup here is its."""
+        body = "<h1>Snapshots</h1>" + "".join(
+            f'<section><h2>{i + 1}: direct</h2><img alt="" src="data:image/png;base64,{one["thumbnail_png"]}"></section>'
+            for i, one in enumerate(POINTS[:3]))
+        page = self.folder / "snapshots.html"
+        page.write_text(assembled(body, ["page", "pictures", "snapshots"]))
+        self.open(page)
+        self.assertEqual(self.one("figcaption").text, "left: 1: direct; right: 2: direct")
+        left, right = self.all("select")
+        right.send_keys("3")
+        self.assertEqual(self.one("figcaption").text, "left: 1: direct; right: 3: direct")
+        frame = self.one(".frame")
+        self.wheel(frame, -240)
+        before = self.read("document.querySelector('.layer img').style.transform")
+        self.do().key_down(Keys.SHIFT).perform()
+        self.drag(frame, (0.1, 0), (-0.1, 0))
+        self.do().key_up(Keys.SHIFT).perform()
+        self.assertNotEqual(self.read("document.querySelector('.layer img').style.transform"), before, "Shift moves")
+        self.assertEqual(float(self.one(".position").get_attribute("value")), 50)
 
     def test_all_methods(self):
         self.open(self.methods())

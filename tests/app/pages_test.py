@@ -1,13 +1,11 @@
 """Pages without a browser: they parse, fetch nothing, name their one script by its digest, and are no larger than their pictures."""
 
-import base64
-import hashlib
 import html.parser
 import json
 import re
 import unittest
 
-from page_maker import EVIL, POINTS, ROOT, PageTest, point
+from page_maker import EVIL, POINTS, ROOT, PageTest, digest, point
 
 # Bytes of a page without points: the style, the script, the chart's axes.
 MAX_FRAME = 48 * 1024
@@ -45,10 +43,6 @@ class Parsed(html.parser.HTMLParser):
     def handle_data(self, data):
         if self.open:
             self.texts[self.open[-1]][-1] += data
-
-
-def digest(text):
-    return "'sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() + "'"
 
 
 class Pages(PageTest):
