@@ -49,7 +49,6 @@ int run(const AblateArguments& arguments) {
     const std::string table = ablation_markdown(ablation, settings, origin);
     write_file_atomically(folder / "ablation.md", table);
     write_file_atomically(folder / "ablation.csv", ablation_csv(ablation));
-    write_file_atomically(folder / "ablation.html", ablation_html(ablation, settings, origin, measurer));
     const std::filesystem::path minimal = folder / "minimal.json";
     const VariantFigures &before = ablation.whole, &after = ablation.minimal_figures;
     write_file_atomically(
@@ -58,6 +57,7 @@ int run(const AblateArguments& arguments) {
                                                "where the whole graph has {:.2f} %.",
                                                settings.session.shot, after.ms, before.ms, 100 * after.error,
                                                100 * before.error)));
+    write_file_atomically(folder / "ablation.html", ablation_html(ablation, settings, origin, measurer));
     print("{}/ablation.html\n", arguments.output);
     return 0;
 }

@@ -2,7 +2,7 @@
 #include "app/capture.h"
 #include "app/commands/command.h"
 #include "app/commands/option_checks.h"
-#include "app/experiments/comparison_text.h"
+#include "app/experiments/comparison_page.h"
 #include "app/print.h"
 #include "core/error.h"
 #include "core/heat_map.h"
@@ -16,7 +16,7 @@ namespace {
 constexpr int k_max_window = 255;
 
 struct CompareArguments {
-    std::string image, reference, heatmap;
+    std::string image, reference, heatmap, page;
     std::vector<std::string> parts;
     float heatmap_top = 0.5f;
     double exposure = 0;
@@ -27,7 +27,8 @@ struct CompareArguments {
 };
 
 int compare(const CompareArguments& arguments) {
-    if (!arguments.heatmap.empty()) check_output_file(arguments.heatmap);
+    for (const std::string& output : {arguments.heatmap, arguments.page})
+        if (!output.empty()) check_output_file(output);
     bool image_display = false, reference_display = false;
     PicturePlace image_place, reference_place;
     LayeredImage image = read_picture(arguments.image, image_display, &image_place);
@@ -72,17 +73,23 @@ int compare(const CompareArguments& arguments) {
         print("{}\n", comparison_json(report));
     else
         print("{}", comparison_text(report));
-    if (!arguments.heatmap.empty()) {
-        // The picture as a whole where there is one, unless a part was asked for.
-        std::string part = comparison.parts.front().part;
-        for (const PartComparison& p : comparison.parts) {
-            if (arguments.parts.empty() && p.part == "out.radiance") part = p.part;
-        }
-        Image a = part_of(image, part, "the image"), b = part_of(reference, part, "the reference");
-        match_channels(a, b);
-        const Image errors = relative_error_map(a, b);
-        write_png(arguments.heatmap, heat_map(errors, 0, arguments.heatmap_top, comparison.mask));
+    if (arguments.heatmap.empty() && arguments.page.empty()) return 0;
+    // The picture as a whole where there is one, unless a part was asked for.
+    const PartComparison* chosen = &comparison.parts.front();
+    for (const PartComparison& p : comparison.parts) {
+        if (arguments.parts.empty() && p.part == "out.radiance") chosen = &p;
     }
+    ComparedPictures pictures{chosen->part,
+                              part_of(image, chosen->part, "the image"),
+                              part_of(reference, chosen->part, "the reference"),
+                              !image_display && is_radiance(chosen->part),
+                              chosen->exposure,
+                              arguments.heatmap_top};
+    match_channels(pictures.image, pictures.reference);
+    if (!arguments.heatmap.empty())
+        write_png(arguments.heatmap, heat_map(relative_error_map(pictures.image, pictures.reference), 0,
+                                              arguments.heatmap_top, comparison.mask));
+    if (!arguments.page.empty()) write_file_atomically(arguments.page, comparison_html(report, pictures));
     return 0;
 }
 
@@ -105,9 +112,15 @@ void add_compare_command(CLI::App& app, CommandFunction& chosen) {
     command->add_option("--heatmap", a->heatmap, "write the relative error in false colour to this .png")
         ->type_name("FILE")
         ->check(not_empty());
-    command->add_option("--heatmap-top", a->heatmap_top, "the error (of the reference's mean) that is brightest there")
+    command
+        ->add_option("--heatmap-top", a->heatmap_top, "the error (of the reference's mean) that is brightest in maps")
         ->capture_default_str()
         ->check(number_between(1e-6, 1e6));
+    command
+        ->add_option("--html", a->page,
+                     "write a page with both pictures under a divider, the error map and the figures")
+        ->type_name("FILE")
+        ->check(not_empty());
     command->add_flag("--json", a->json, "print JSON");
     command->add_flag("--no-mask", a->no_mask, "count edge pixels too");
     command->add_flag("--per-surface", a->per_surface, "also by material and dominant normal axis");

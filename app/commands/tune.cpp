@@ -1,9 +1,9 @@
 // bounce tune: settings of a graph for an error, a time or a memory, as a graph that extends it.
-#include "app/experiments/tune.h"
 #include "app/capture.h"
 #include "app/commands/command.h"
 #include "app/commands/option_checks.h"
 #include "app/commands/session_options.h"
+#include "app/experiments/tune_page.h"
 #include "app/graph_preset.h"
 #include "app/hosts/headless.h"
 #include "app/origin.h"
@@ -69,6 +69,8 @@ int run(const TuneArguments& arguments) {
                     join(settings.shots, ", "), found.figures.ms, 100 * found.figures.error, settings.session.graph,
                     start.figures.ms, 100 * start.figures.error);
     write_file_atomically(preset, graph_preset_text(session, preset, about));
+    write_file_atomically(std::filesystem::path(preset).replace_extension(".html"),
+                          tune_html(settings, outcome, origin_here()));
     print("{}\n{}\n", about, preset.string());
     const bool missed = (settings.goal.error && found.figures.error > *settings.goal.error) ||
                         (settings.goal.ms && found.figures.ms > *settings.goal.ms) ||
@@ -110,7 +112,7 @@ void add_tune_command(CLI::App& app, CommandFunction& chosen) {
         ->capture_default_str();
     command
         ->add_option("-o,--output", a->output,
-                     "the preset (name or .json); beside it a .md, and .points.json, from which a run goes on")
+                     "the preset (name or .json); beside it .md, .html and .points.json, from which a run goes on")
         ->type_name("FILE")
         ->required();
     command->callback([a, &chosen] { chosen = [a] { return run(*a); }; });

@@ -92,10 +92,14 @@ std::string ablation_html(const Ablation& ablation, const AblationSettings& sett
         most_error = std::max(most_error, std::abs(part.error_change));
         most_time = std::max(most_time, std::abs(part.time_change));
     }
-    std::string body = "<h1>What each part buys</h1>\n<p>" + escape_markup(origin_head({origin})) + "</p>\n<p>" +
-                       escape_markup(summary(ablation, settings)) +
-                       "</p>\n<table><tr><th>without</th><th colspan=\"2\">error, points</th><th colspan=\"2\">time"
-                       "</th><th>memory</th><th>flicker, points</th><th>where, 0 … 50 %</th></tr>\n";
+    std::string body = "<h1>What each part buys</h1>\n<p class=\"origin\">" + escape_markup(origin_head({origin})) +
+                       "</p>\n<p>" + escape_markup(summary(ablation, settings)) +
+                       "</p>\n<p class=\"hint\">Maps: where the picture changes without the part, in shares of the "
+                       "reference's mean, " +
+                       heat_scale_markup(0.5) +
+                       ".</p>\n<table class=\"sortable wide\"><tr><th>without</th><th colspan=\"2\">error, points</th>"
+                       "<th colspan=\"2\">time</th><th>memory</th><th>flicker, points</th><th class=\"plain\">where"
+                       "</th></tr>\n";
     const double mean = [&] {
         double sum = 0;
         for (float value : measurer.reference().pixels)
@@ -118,14 +122,13 @@ std::string ablation_html(const Ablation& ablation, const AblationSettings& sett
                 map.pixels[i] = mean > 0 ? float(map.pixels[i] / (channels * mean)) : 0;
             }
             body += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:+.2f}</"
-                                "td><td><img alt=\"\" "
-                                "src=\"data:image/png;base64,{}\"></td></tr>\n",
+                                "td><td>{}</td></tr>\n",
                                 escape_markup(part.name), points(part.error_change, part.uncertainty),
                                 bar(part.error_change, most_error), percent(part.time_change),
                                 bar(part.time_change, most_time), percent(part.bytes_change), 100 * part.flicker_change,
-                                base64(encode_png(heat_map(map, 0, 0.5f))));
+                                png_markup(base64(encode_png(heat_map(map, 0, 0.5f))), "where, 0 … 50 %"));
         }
-    return html_page("what each part buys", "img{width:180px}svg{display:inline-block}\n", body + "</table>\n");
+    return html_page({"what each part buys", body + "</table>\n", "null", {}});
 }
 
 } // namespace bounce

@@ -38,6 +38,23 @@ std::string occlusion_line(const MetricValues& values) {
 
 } // namespace
 
+std::vector<std::string> comparison_notes(const ComparisonReport& report) {
+    std::vector<std::string> notes = {fmt::format(
+        "{:.1f} % of the pixels count{}. RMSE and noise are relative to the reference's mean.",
+        100 * report.comparison.mask.share(), report.comparison.edges_masked ? ", away from edges" : "; no edge mask")};
+    if (report.pixels_a_side > 1)
+        notes.push_back(fmt::format(
+            "The image is {0} times as wide and high as the reference: compared are means over {0} x {0} pixels.",
+            report.pixels_a_side));
+    for (const auto& [name, outside] :
+         {std::pair(report.image, report.outside), std::pair(report.reference, report.reference_outside)}) {
+        if (outside > 0)
+            notes.push_back(fmt::format("{:.1f} % of '{}' lies outside of its data window and counts as black.",
+                                        100 * outside, name));
+    }
+    return notes;
+}
+
 std::string comparison_text(const ComparisonReport& report) {
     std::string text = fmt::format("{:{}}", "part", k_name_width);
     for (const Metric* metric : brief_metrics())
@@ -53,19 +70,8 @@ std::string comparison_text(const ComparisonReport& report) {
     }
     for (const SurfaceComparison& surface : report.surfaces)
         text += row(fmt::format("  material {} facing {}", surface.material, surface.axis), surface.figures);
-    text += fmt::format("{:.1f} % of the pixels count{}. RMSE and noise are relative to the reference's mean.\n",
-                        100 * report.comparison.mask.share(),
-                        report.comparison.edges_masked ? ", away from edges" : "; no edge mask");
-    if (report.pixels_a_side > 1)
-        text += fmt::format(
-            "The image is {0} times as wide and high as the reference: compared are means over {0} x {0} pixels.\n",
-            report.pixels_a_side);
-    for (const auto& [name, outside] :
-         {std::pair(report.image, report.outside), std::pair(report.reference, report.reference_outside)}) {
-        if (outside > 0)
-            text += fmt::format("{:.1f} % of '{}' lies outside of its data window and counts as black.\n",
-                                100 * outside, name);
-    }
+    for (const std::string& note : comparison_notes(report))
+        text += note + "\n";
     return text;
 }
 

@@ -20,6 +20,8 @@ struct ComparisonReport {
 
 /// A table with a column for each metric that a person reads, and what it is measured over.
 std::string comparison_text(const ComparisonReport& report);
+/// What it is measured over, a sentence each.
+std::vector<std::string> comparison_notes(const ComparisonReport& report);
 /// Every metric of every part by name.
 std::string comparison_json(const ComparisonReport& report);
 

@@ -3,11 +3,11 @@
 #include "app/capture.h"
 #include "app/experiments/chart_point.h"
 #include "app/experiments/device_reference.h"
+#include "app/experiments/page_picture.h"
 #include "app/experiments/transport.h"
 #include "app/hosts/headless.h"
 #include "app/origin.h"
 #include "app/timings.h"
-#include "core/base64.h"
 #include "core/error.h"
 #include "core/heat_map.h"
 #include "core/text.h"
@@ -41,38 +41,6 @@ LayeredImage reference_for(const PointTask& task, const Shot& shot, const Refere
     const int frame = task.warm_up + task.frames - 1;
     if (task.device_reference) return device_reference(task.session, shot, settings, frame, goal, tell);
     return reference_image(shot, settings, frame, goal, tell).image;
-}
-
-/// What an eye would see of it: light through the tone curve, occlusion as it is.
-Image shown(const Image& linear, bool light, float exposure) {
-    if (light) return display_values(linear, exposure);
-    Image out(linear.width, linear.height, 3);
-    for (size_t i = 0; i < out.pixels.size(); ++i)
-        out.pixels[i] = std::clamp(linear.pixels[i / 3 * size_t(linear.channels)], 0.0f, 1.0f);
-    return out;
-}
-
-Image8 small_picture(const Image& display, int width) {
-    int w = std::min(width, display.width), h = std::max(1, display.height * w / display.width);
-    Image8 out{w, h, std::vector<uint8_t>(size_t(w) * h * 4, 255)};
-    for (int y = 0; y < h; ++y) {
-        for (int x = 0; x < w; ++x) { // the mean of the pixels that fall into this one
-            int x0 = x * display.width / w, x1 = std::max(x0 + 1, (x + 1) * display.width / w);
-            int y0 = y * display.height / h, y1 = std::max(y0 + 1, (y + 1) * display.height / h);
-            float sum[3] = {};
-            for (int sy = y0; sy < y1; ++sy) {
-                for (int sx = x0; sx < x1; ++sx) {
-                    for (int c = 0; c < 3; ++c)
-                        sum[c] += display.at(sx, sy)[c];
-                }
-            }
-            for (int c = 0; c < 3; ++c) {
-                out.rgba[(size_t(y) * w + x) * 4 + size_t(c)] =
-                    uint8_t(std::lround(255 * srgb_encode(sum[c] / float((x1 - x0) * (y1 - y0)))));
-            }
-        }
-    }
-    return out;
 }
 
 } // namespace
@@ -112,10 +80,13 @@ void compare_with_reference(Session& session, ChartPoint& point, const std::func
     const Image truth = part_of(same, join(point.parts, "+"), "the reference");
     Image own = part_or_black(picture, join(point.parts, "+"), truth);
     const float exposure = comparison.parts.front().exposure;
-    point.thumbnail_png = base64(encode_png(small_picture(shown(own, !occlusion, exposure), 240)));
-    point.error_png = base64(encode_png(heat_map(relative_error_map(own, truth), 0, 0.5f, comparison.mask)));
+    const auto picture_of = [&](const Image& image) {
+        return page_picture(image, !occlusion, exposure, k_point_picture_width);
+    };
+    point.thumbnail_png = picture_of(own);
+    point.error_png = page_error_map(relative_error_map(own, truth), 0.5f, comparison.mask, k_point_picture_width);
     if (!point.figures) return;
-    point.reference_png = base64(encode_png(small_picture(shown(truth, !occlusion, exposure), 240)));
+    point.reference_png = picture_of(truth);
     if (const auto direct = same.layers.find("out.direct"); !occlusion && direct != same.layers.end())
         add_shadow_errors(*point.figures, part_or_black(picture, "out.direct", direct->second), direct->second,
                           comparison.mask);

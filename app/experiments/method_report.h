@@ -9,8 +9,7 @@
 
 namespace bounce {
 
-/// The interactive page: the template assets/pages/methods.html with the points in it. No network; its one script is
-/// the template's, which its policy names by a digest. Throws Error.
+/// The interactive page. Throws Error.
 std::string methods_page(const MethodSuite& suite, const std::vector<ChartPoint>& points, const std::string& head);
 
 /// Writes methods.md, methods.csv, methods.html, methods/*.svg (a group of methods each), gallery.md and gallery/*.svg

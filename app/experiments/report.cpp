@@ -1,7 +1,6 @@
 #include "app/experiments/report.h"
 
 #include "app/experiments/csv.h"
-#include "app/experiments/html_page.h"
 #include "app/experiments/svg_scatter.h"
 #include "app/experiments/transport.h"
 #include "app/origin.h"
@@ -119,57 +118,10 @@ std::string chart_csv(const std::vector<ChartPoint>& points) {
     return out;
 }
 
-/// "bias %", or of points in different units "bias".
-static std::string heading_of(const Metric& metric) {
-    return metric.absolute.empty() ? metric_heading(metric) : metric.title;
-}
-
-static std::string cost_cell(const ChartPoint& p) {
-    std::string passes;
-    for (const PassCost& pass : p.passes)
-        passes += fmt::format("{}: {:.3g} ({:.3g} … {:.3g})<br>", escape_markup(pass.id), pass.median_ms, pass.low_ms,
-                              pass.high_ms);
-    for (const auto& [id, reason] : p.skipped)
-        passes += fmt::format("{}: skipped: {}<br>", escape_markup(id), escape_markup(reason));
-    return fmt::format("<b>{:.3g}</b><br><small>{}</small>", p.total_ms, passes);
-}
-
-std::string chart_html(const std::vector<ChartPoint>& points, const ChartView& view) {
-    std::string out =
-        "<h1>Error against time</h1>\n"
-        "<p>Errors are measured off depth and normal edges, against a path-traced reference of the graph's own light "
-        "transport; in small print, against one of all light. Points with a bar on the left are beaten in both time "
-        "and error by no other of the same light transport, which stands under each.</p>\n";
-    out += "<p>" + escape_markup(origin_head(origins_of(points))) + "</p>\n";
-    out += svg_scatter(points, view);
-    out += "<h2>Points</h2>\n<table><tr><th>point</th><th>GPU ms<br>(10 … 90 % by pass)</th><th>MiB</th>";
-    for (const Metric* metric : brief_metrics())
-        out += "<th>" + escape_markup(heading_of(*metric)) + "</th>";
-    out += "<th>picture</th><th>relative error, 0 … 50 %</th></tr>\n";
-    for (const ChartPoint& p : points) {
-        out += fmt::format("<tr{}><td>{}<br><small>{}</small><br><code>{}</code></td><td>{}</td><td>{:.1f}</td>",
-                           p.on_front ? " class=\"front\"" : "", escape_markup(p.task.label()),
-                           escape_markup(transport_text(p.transport_bounces, p.parts)), escape_markup(p.task.command()),
-                           cost_cell(p), double(p.bytes) / 1048576.0);
-        for (const Metric* metric : brief_metrics()) {
-            out += "<td>" + metric_text(*metric, p.same_transport, p.absolute());
-            if (!p.absolute()) out += "<br><small>" + metric_text(*metric, p.full, false) + "</small>";
-            out += "</td>";
-        }
-        for (const std::string& picture : {p.thumbnail_png, p.error_png})
-            out += fmt::format("<td><img alt=\"\" src=\"data:image/png;base64,{}\"></td>", escape_markup(picture));
-        out += "</tr>\n";
-    }
-    return html_page("error against time",
-                     "img{display:block;width:180px;image-rendering:auto}.front td:first-child{border-left:4px solid "
-                     "#0072b2}\n",
-                     out + "</table>\n");
-}
-
 std::string chart_markdown(const std::vector<ChartPoint>& points) {
     std::string out = origin_head(origins_of(points)) + "\n| point | ms | MiB |", rule = "| --- | ---: | ---: |";
     for (const Metric* metric : brief_metrics()) {
-        out += " " + heading_of(*metric) + " |";
+        out += " " + chart_heading(*metric) + " |";
         rule += " ---: |";
     }
     out += "\n" + rule + "\n";
@@ -200,8 +152,8 @@ void write_report(std::vector<ChartPoint> points, const std::filesystem::path& f
     write_file_atomically(folder / "chart.csv", chart_csv(points));
     write_file_atomically(folder / "chart.json", json + "]\n");
     write_file_atomically(folder / "chart.svg", with_head(svg_scatter(points, view), points));
-    write_file_atomically(folder / "chart.html", chart_html(points, view));
     write_file_atomically(folder / "chart.md", chart_markdown(points));
+    write_file_atomically(folder / "chart.html", chart_html(points, view));
 }
 
 } // namespace bounce

@@ -8,7 +8,10 @@
 namespace bounce {
 
 std::string chart_csv(const std::vector<ChartPoint>& points);
+/// Points to zoom into, to choose and to compare; without script a chart and a table.
 std::string chart_html(const std::vector<ChartPoint>& points, const ChartView& view = {});
+/// "bias %", or of points in different units "bias".
+std::string chart_heading(const Metric& metric);
 /// A table of the points, for reading beside prose.
 std::string chart_markdown(const std::vector<ChartPoint>& points);
 /// Where the points come from: a paragraph of Markdown.

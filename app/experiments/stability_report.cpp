@@ -2,6 +2,7 @@
 
 #include "app/experiments/csv.h"
 #include "app/experiments/html_page.h"
+#include "app/experiments/page_data.h"
 #include "app/experiments/svg_scatter.h"
 #include "app/experiments/table_file.h"
 #include "core/error.h"
@@ -63,8 +64,9 @@ std::string curve_svg(const StabilityCase& which, const StabilityCell& cell) {
         line += fmt::format("{:.1f},{:.1f} ", x, y(cell.curve[i]));
         title += fmt::format("{} {}: {}\n", which.step, which.ladder[i], stability_text(which, cell.curve[i], false));
     }
-    std::string out = fmt::format("<svg width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\"><title>{2}</title>", width,
-                                  height, escape_markup(title));
+    std::string out =
+        fmt::format("<svg class=\"curve\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\"><title>{2}</title>",
+                    width, height, escape_markup(title));
     if (marked)
         out += fmt::format("<line x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\" stroke=\"#999\" "
                            "stroke-dasharray=\"3 3\"/>",
@@ -187,31 +189,80 @@ std::vector<StabilityRow> read_stability(const std::filesystem::path& folder) {
     return rows;
 }
 
+/// What the script draws large.
+static std::string page_case(const StabilityRow& row) {
+    const StabilityCase& which = row.which;
+    const auto numbers = [](const std::vector<double>& values) {
+        std::vector<std::string> list;
+        for (double value : values)
+            list.push_back(data_number(value));
+        return data_list(list);
+    };
+    std::vector<std::string> curves;
+    for (const StabilityCell& cell : row.cells) {
+        if (cell.curve.empty()) continue;
+        std::vector<std::string> texts;
+        for (double value : cell.curve)
+            texts.push_back(data_text(stability_text(which, value, false)));
+        curves.push_back(data_object({{"graph", data_text(cell.graph)},
+                                      {"values", numbers(cell.curve)},
+                                      {"texts", data_list(texts)},
+                                      {"reached", cell.reached ? "true" : "false"}}));
+    }
+    const bool marked = which.summary != StabilitySummary::growth;
+    return data_object({{"name", data_text(which.name)},
+                        {"quantity", data_text(quantity_text(which))},
+                        {"mark", marked ? data_number(which.most) : "null"},
+                        {"mark_text", data_text(mark_text(which))},
+                        {"step", data_text(which.unit.empty() ? which.step : which.unit)},
+                        {"ladder", numbers(which.ladder)},
+                        {"curves", data_list(curves)}});
+}
+
+/// Cells of different cases are told apart by how often the mark goes into them.
+static std::string sorted_by(const StabilityRow& row, const StabilityCell& cell) {
+    if (!cell.figure || !(row.which.most > 0)) return "";
+    return fmt::format(" data-sort=\"{:.6g}\"", std::abs(*cell.figure) / row.which.most);
+}
+
 std::string stability_html(const std::vector<StabilityRow>& rows, const Origin& origin) {
     const std::vector<std::string> graphs = graphs_of(rows);
-    std::string body = "<h1>Stability</h1>\n<p>" + escape_markup(origin_head({origin})) +
-                       "</p>\n<p>Each row is a way in which methods fail. Curves go over the case's ladder; the dashed "
-                       "line is the mark. Hover a curve for its values.</p>\n<table><tr><th>case</th><th>mark</th>";
-    for (const std::string& graph : graphs)
+    std::string body =
+        "<h1>Stability</h1>\n<p class=\"origin\">" + escape_markup(origin_head({origin})) +
+        "</p>\n<p>Each row is a way in which methods fail. Curves go over the case's ladder; the dashed line is the "
+        "mark. "
+        "Point at a curve for its values; with script it is then seen large, a click keeps it, and a click on a head "
+        "sorts by how often the mark goes into the figure.</p>\n<table class=\"sortable wide\"><tr><th>case</th>"
+        "<th class=\"plain\">mark</th>";
+    std::vector<std::string> names, cases;
+    for (const std::string& graph : graphs) {
         body += "<th>" + escape_markup(graph) + "</th>";
+        names.push_back(data_text(graph));
+    }
     body += "</tr>\n";
     for (const StabilityRow& row : rows) {
-        body += fmt::format("<tr><td><b>{}</b><br><small>{}</small></td><td>{}<br><small>{}</small></td>",
-                            escape_markup(row.which.name), escape_markup(row.which.about),
+        body += fmt::format("<tr data-case=\"{}\"><td><b "
+                            "class=\"name\">{}</b><br><small>{}</small></td><td>{}<br><small>{}</small></td>",
+                            cases.size(), escape_markup(row.which.name), escape_markup(row.which.about),
                             escape_markup(mark_text(row.which)), escape_markup(quantity_text(row.which)));
-        for (const std::string& graph : graphs) {
-            const StabilityCell* cell = cell_of(row, graph);
+        cases.push_back(page_case(row));
+        for (size_t i = 0; i < graphs.size(); ++i) {
+            const StabilityCell* cell = cell_of(row, graphs[i]);
             if (!cell)
                 body += "<td></td>";
             else if (!cell->failure.empty())
-                body += fmt::format("<td><small>{}</small></td>", escape_markup(cell->failure));
+                body += fmt::format("<td data-sort=\"\"><small>{}</small></td>", escape_markup(cell->failure));
             else
-                body += fmt::format("<td class=\"{}\">{}<br>{}</td>", cell->reached ? "reached" : "missed",
+                body += fmt::format("<td class=\"{}\" data-graph=\"{}\"{}>{}{}</td>",
+                                    cell->reached ? "reached" : "missed", i, sorted_by(row, *cell),
                                     escape_markup(cell_text(row.which, *cell)), curve_svg(row.which, *cell));
         }
         body += "</tr>\n";
     }
-    return html_page("stability", ".missed{color:#a33d00}svg{display:inline-block}\n", body + "</table>\n");
+    return html_page({"stability",
+                      body + "</table>\n",
+                      data_object({{"graphs", data_list(names)}, {"cases", data_list(cases)}}),
+                      {"stability"}});
 }
 
 void write_stability(const std::vector<StabilityRow>& rows, const Origin& origin, const std::filesystem::path& folder) {

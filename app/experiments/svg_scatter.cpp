@@ -30,6 +30,22 @@ std::string escape_markup(const std::string& text) {
     return out;
 }
 
+double parameter_of(const ChartPoint& point, const std::string& against) {
+    for (auto it = point.task.session.sets.rbegin(); it != point.task.session.sets.rend();
+         ++it) { // the last one set counts
+        if (it->first == against || it->first.ends_with("." + against)) return std::atof(it->second.c_str());
+    }
+    return 0;
+}
+
+std::string error_title(const Metric& metric, bool occlusion) {
+    std::string title = metric.ideal == 0 ? metric.title : fmt::format("{:g} - {}", metric.ideal, metric.title);
+    if (metric.format.starts_with("+")) title = "|" + title + "|";
+    if (metric.unit == MetricUnit::share) title += " in %";
+    if (occlusion) return title + (metric.unit == MetricUnit::image ? " in AO units" : ", occlusion");
+    return title + ", same transport";
+}
+
 namespace {
 
 constexpr int k_width = 720, k_height = 420, k_left = 70, k_right = 170, k_top = 40, k_bottom = 50;
@@ -91,15 +107,6 @@ struct Axis {
     }
 };
 
-/// The value of `against`, of whichever pass; 0 when the point does not set it.
-double parameter_of(const ChartPoint& point, const std::string& against) {
-    for (auto it = point.task.session.sets.rbegin(); it != point.task.session.sets.rend();
-         ++it) { // the last one set counts
-        if (it->first == against || it->first.ends_with("." + against)) return std::atof(it->second.c_str());
-    }
-    return 0;
-}
-
 /// Of the fronts of different transports.
 const char* const k_dashes[] = {"4 3", "1 3", "10 3", "10 3 1 3", "6 2 1 2 1 2"};
 
@@ -117,15 +124,6 @@ std::string joined(std::vector<std::pair<double, double>> points, bool steps, co
             path += steps ? fmt::format(" H{:.1f} V{:.1f}", x, y) : fmt::format(" L{:.1f} {:.1f}", x, y);
     }
     return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-dasharray=\"{}\"/>\n", path, colour, dashes);
-}
-
-/// "RMSE in AO units", "|bias| in %, same transport", "1 - SSIM, same transport".
-std::string axis_title(const Metric& metric, bool occlusion) {
-    std::string title = metric.ideal == 0 ? metric.title : fmt::format("{:g} - {}", metric.ideal, metric.title);
-    if (metric.format.starts_with("+")) title = "|" + title + "|";
-    if (metric.unit == MetricUnit::share) title += " in %";
-    if (occlusion) return title + (metric.unit == MetricUnit::image ? " in AO units" : ", occlusion");
-    return title + ", same transport";
 }
 
 std::string transport_of(const ChartPoint& point) {
@@ -165,7 +163,7 @@ std::string plot(const std::string& shot, const std::vector<const ChartPoint*>& 
     out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", (k_left + k_width - k_right) / 2,
                        bottom + 36, against.empty() ? "GPU time of a frame, ms" : escape_markup(against));
     out += fmt::format("<text transform=\"translate(16 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-                       top + (k_top + k_height - k_bottom) / 2, escape_markup(axis_title(metric, absolute)));
+                       top + (k_top + k_height - k_bottom) / 2, escape_markup(error_title(metric, absolute)));
 
     std::map<std::string, std::vector<std::pair<double, double>>> fronts, lines; // of transports; of graphs
     for (const ChartPoint* p : points) {

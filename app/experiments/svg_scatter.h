@@ -19,6 +19,11 @@ struct ChartView {
 /// absolute.
 std::string svg_scatter(const std::vector<ChartPoint>& points, const ChartView& view = {});
 
+/// "RMSE in AO units", "|bias| in %, same transport", "1 - SSIM, same transport": of the axis of errors.
+std::string error_title(const Metric& metric, bool occlusion);
+/// The value of the parameter "pass.name", or "name" of any pass; 0 when the point does not set it.
+double parameter_of(const ChartPoint& point, const std::string& against);
+
 /// Text made safe for XML and HTML.
 std::string escape_markup(const std::string& text);
 

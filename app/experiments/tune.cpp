@@ -36,12 +36,11 @@ json json_of(const Variant& variant) {
 /// One stage: a measurer for each shot, made when it is first needed.
 class Stage {
   public:
-    Stage(const TuneSettings& settings, int number, double scale) : settings_(settings), number_(number) {
+    Stage(const TuneSettings& settings, int number, glm::ivec2 size) : settings_(settings), number_(number) {
         for (const std::string& shot : settings.shots) {
             options_.push_back(settings.session);
             options_.back().shot = shot;
-            const glm::vec2 size = *settings.session.size;
-            options_.back().size = glm::max(glm::ivec2(glm::round(size * float(scale))), glm::ivec2(16));
+            options_.back().size = size;
         }
         measurers_.resize(options_.size());
     }
@@ -154,6 +153,11 @@ std::vector<TuneParameter> tunable_parameters(const GraphModel& model, const Pla
     return out;
 }
 
+glm::ivec2 tune_first_size(const TuneSettings& settings) {
+    const glm::vec2 size = *settings.session.size;
+    return glm::max(glm::ivec2(glm::round(size * float(settings.first_scale))), glm::ivec2(16));
+}
+
 std::string tune_key(const TuneSettings& settings) {
     Digest digest;
     digest.add(origin_here().commit);
@@ -172,14 +176,16 @@ TuneOutcome tune(const TuneSettings& settings, TuneMemory& memory, const std::fu
     const auto in_time = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < settings.seconds;
     };
-    Stage first(settings, k_first, settings.first_scale), last(settings, k_last, 1);
+    Stage first(settings, k_first, tune_first_size(settings)), last(settings, k_last, *settings.session.size);
     first.measurer(0).measure({}); // a plan is what tells which parameters matter
     Session& session = first.measurer(0).session();
     const std::vector<TuneParameter> parameters =
         tunable_parameters(session.graph().model(), session.graph().plan(), settings.over);
     TuneOutcome outcome;
-    for (const TuneParameter& parameter : parameters)
+    for (const TuneParameter& parameter : parameters) {
         outcome.over.push_back(parameter.name);
+        outcome.own[parameter.name] = parameter.own;
+    }
     say(fmt::format("{} parameters: {}", parameters.size(), join(outcome.over, ", ")));
     outcome.search = tune_search(
         parameters, settings.goal, settings.budget,

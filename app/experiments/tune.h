@@ -22,9 +22,10 @@ struct TuneSettings {
 };
 
 struct TuneOutcome {
-    TuneResult search;             ///< at the size of the first stage
-    std::vector<TunePoint> finals; ///< at full size: the start, then the survivors, the best of those first
-    std::vector<std::string> over; ///< what was searched
+    TuneResult search;                      ///< at the size of the first stage
+    std::vector<TunePoint> finals;          ///< at full size: the start, then the survivors, the best of those first
+    std::vector<std::string> over;          ///< what was searched
+    std::map<std::string, std::string> own; ///< of these, the graph's values
 };
 
 /// Points that were measured before, by stage: a run that was interrupted goes on from them.
@@ -48,6 +49,9 @@ class TuneMemory {
 /// that is none.
 std::vector<TuneParameter> tunable_parameters(const GraphModel& model, const Plan& plan,
                                               const std::vector<std::string>& over);
+
+/// The size of the first stage.
+glm::ivec2 tune_first_size(const TuneSettings& settings);
 
 /// What names a run: points of another are of no use to it.
 std::string tune_key(const TuneSettings& settings);

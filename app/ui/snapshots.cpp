@@ -129,12 +129,12 @@ std::string snapshots_page(const Snapshots& snapshots) {
             out += fmt::format("<p>Against {}:</p>\n<pre>{}</pre>\n", escape_markup(snapshots.all.front().name),
                                escape_markup(apart.empty() ? "the same settings" : apart));
         }
-        out += "<table><tr><th>pass</th><th>ms</th></tr>\n";
+        out += "<table class=\"narrow\"><tr><th>pass</th><th>ms</th></tr>\n";
         for (const auto& [pass, ms] : snapshot.passes)
             out += fmt::format("<tr><td>{}</td><td>{:.3f}</td></tr>\n", escape_markup(pass), ms);
         out += "</table></section>\n";
     }
-    return html_page("snapshots", "section{margin-bottom:2em}img{max-width:100%}table{width:auto}\n", out);
+    return html_page({"snapshots", out, "null", {"pictures", "snapshots"}});
 }
 
 } // namespace bounce

@@ -77,8 +77,8 @@ class Reports(Chart):
         page = (self.out / "c/chart.html").read_text()
         for source in re.findall(r'(?:src|href)="([^"]*)"', page):
             self.assertTrue(source.startswith("data:"), source)
-        self.assertEqual(page.count("data:image/png;base64,"), 2, "a picture and an error map")
-        command = re.search(r"<code>bounce (render [^<]*)</code>", page).group(1).split()
+        self.assertEqual(page.count('src="data:image/png;base64,'), 2, "a picture and an error map")
+        command = re.search(r"<code class=\"command\">bounce (render [^<]*)</code>", page).group(1).split()
         self.assert_good(self.run_program(*command))
         self.assertTrue((self.out / "x.exr").exists())
 

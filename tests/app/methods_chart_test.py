@@ -2,18 +2,12 @@
 
 import base64
 import csv
-import hashlib
-import html
 import json
 import re
-import shutil
-import subprocess
 import unittest
 import xml.etree.ElementTree as xml
 
 from program import ROOT, ProgramTest
-
-PAGE = ROOT / "assets/pages/methods.html"
 
 
 def suite(shot):
@@ -35,7 +29,6 @@ class Methods(ProgramTest):
     def setUp(self):
         super().setUp()
         (self.root / "assets" / "sweeps").symlink_to(ROOT / "assets" / "sweeps")
-        (self.root / "assets" / "pages").symlink_to(ROOT / "assets" / "pages")
         self.suite = self.folder / "suite.json"
         self.suite.write_text(json.dumps(suite(self.shot)))
 
@@ -85,12 +78,14 @@ class Reports(Methods):
             self.assertEqual(bool(re.search(rf"Beaten everywhere.*by `{name}` \(.*`{other}` \(", bounce)), better[name], bounce)
         self.assertEqual("Nobody is beaten everywhere" in bounce, not any(better.values()), bounce)
 
-        points = self.data("r")["points"]
-        self.assertEqual(sorted(f"{p['same_transport']['relative_rmse']:.6g}" for p in points),
+        data = self.data("r")
+        self.assertEqual(sorted(f"{p['numbers']['relative_rmse']:.6g}" for p in data["points"]),
                          sorted(row["relative_rmse"] for row in rows))
-        for point in points:
-            for picture in (point["thumbnail_png"], point["error_png"]):
-                self.assertTrue(base64.b64decode(picture).startswith(b"\x89PNG"))
+        for picture in data["pictures"]:
+            self.assertTrue(base64.b64decode(picture).startswith(b"\x89PNG"))
+        self.assertEqual({i for p in data["points"] for i, _ in p["pictures"]}, set(range(len(data["pictures"]))))
+        references = {(p["light"], p["pictures"][2][0]) for p in data["points"]}
+        self.assertEqual(len(references), 2, "the reference of a group is kept once")
         for name in ("methods/shadows.svg", "methods/bounce.svg", "gallery/" + str(self.shot).replace("/", "_") + ".svg"):
             xml.parse(self.out / "r" / name)
         gallery = xml.parse(self.out / "r/gallery" / (str(self.shot).replace("/", "_") + ".svg")).getroot()
@@ -142,91 +137,6 @@ class Sweep(unittest.TestCase):
                 if "traced" in method["graph"]:
                     self.assertEqual(method["kind"], "traced", method["graph"])
 
-
-class Page(Methods):
-    def test_its_one_script_is_the_one_its_policy_names(self):
-        page = PAGE.read_text()
-        policy = html.unescape(re.search(r'http-equiv="Content-Security-Policy" content="([^"]*)"', page).group(1))
-        (script,) = re.findall(r"<script>(.*?)</script>", page, re.S)
-        digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
-        self.assertIn(f"script-src 'sha256-{digest}'", policy, "the script was edited: this is its digest")
-        self.assertIn("default-src 'none'", policy)
-        self.assertFalse(re.findall(r'(?:src|href)="', page), "nothing from elsewhere")
-        self.assertNotIn("innerHTML", script, "names are text, whatever they hold")
-
-    @unittest.skipUnless(shutil.which("node"), "node is not installed (the Debian package nodejs)")
-    def test_choosing_and_comparing(self):
-        self.chart("c")
-        page = (self.out / "c/methods.html").read_text()
-        block, script = re.search(r'id="data">(.*?)</script>\s*<script>(.*?)</script>', page, re.S).groups()
-        (self.folder / "page.js").write_text(f"const block = {json.dumps(block)};\n{DOM}\n{script}\n{ACTIONS}")
-        result = subprocess.run(["node", self.folder / "page.js"], capture_output=True, text=True, timeout=60)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        seen = json.loads(result.stdout)
-        points = self.data("c")["points"]
-        by_group = {name: [p for p in points if p["parts"] == parts]
-                    for name, parts in (("shadows", ["out.direct"]), ("bounce", ["out.indirect_diffuse"]))}
-        self.assertEqual(seen["shadows"], len(by_group["shadows"]))
-        self.assertEqual(seen["bounce"], len(by_group["bounce"]))
-        self.assertEqual(seen["tuned_off"], 1, "rsm alone")
-        self.assertEqual(seen["all"], len(points), "every method against all light")
-        self.assertEqual(seen["hover"], 3, "picture, error, reference")
-        front = [p for p in by_group["shadows"] if not any(
-            q["total_ms"] < p["total_ms"] and q["same_transport"]["relative_rmse"] < p["same_transport"]["relative_rmse"] for q in by_group["shadows"])]
-        self.assertEqual(seen["front"], len(front))
-        self.assertIn("shadow_maps.resolution", seen["differs"])
-        self.assertNotIn("scene", seen["differs"])
-
-
-# As much of a browser as the page needs.
-DOM = """
-class Node {
-  constructor(name, space) { Object.assign(this, { name, namespaceURI: space, children: [], attributes: {}, on: {}, text: '', checked: true }); }
-  setAttribute(key, value) { this.attributes[key] = String(value); if (key === 'value') this.own = String(value); }
-  appendChild(node) { this.children.push(node); return node; }
-  replaceChildren() { this.children = []; }
-  addEventListener(event, action) { this.on[event] = action; }
-  set textContent(text) { this.text = text; }
-  get textContent() { return this.text; }
-  get value() { return this.own ?? (this.children[0] ? this.children[0].own : ''); }
-  set value(value) { this.own = value; }
-  all(test) { return [...(test(this) ? [this] : []), ...this.children.flatMap((child) => child.all(test))]; }
-}
-const nodes = {};
-const document = {
-  getElementById(id) {
-    nodes[id] ??= new Node(id, id === 'plot' ? 'http://www.w3.org/2000/svg' : 'html');
-    if (id === 'data') nodes[id].text = block;
-    return nodes[id];
-  },
-  createElementNS: (space, name) => new Node(name, space),
-  createElement: (name) => new Node(name, 'html'),
-};
-"""
-
-ACTIONS = """
-const marks = () => nodes.plot.all((n) => n.attributes.class === 'point' && n.on.click);
-const choose = (id, value) => { nodes[id].value = value; nodes[id].on.change(); };
-const seen = {};
-choose('metric', 'relative_rmse');
-choose('light', 'shadows');
-seen.shadows = marks().length;
-seen.front = marks().filter((n) => n.attributes['fill-opacity'] === '1').length;
-marks()[0].on.mouseenter();
-seen.hover = nodes.hover.all((n) => n.name === 'img').length;
-marks()[0].on.click();
-marks()[1].on.click();
-seen.differs = nodes.differences.all((n) => n.attributes.class === 'differs').map((row) => row.children[0].text);
-choose('light', 'bounce');
-seen.bounce = marks().length;
-nodes.tuned.checked = false;
-nodes.tuned.on.change();
-seen.tuned_off = marks().length;
-nodes.tuned.checked = true;
-choose('light', 'every method against all light');
-seen.all = marks().length;
-console.log(JSON.stringify(seen));
-"""
 
 if __name__ == "__main__":
     unittest.main()

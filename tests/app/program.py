@@ -28,6 +28,7 @@ class ProgramTest(unittest.TestCase):
         shutil.copytree(ROOT / "assets" / "graphs", self.root / "assets" / "graphs")
         (self.root / "assets" / "scenes").symlink_to(ROOT / "assets" / "scenes")
         (self.root / "assets" / "shots").symlink_to(ROOT / "assets" / "shots")
+        (self.root / "assets" / "pages").symlink_to(ROOT / "assets" / "pages")
         self.shot = self.folder / "tiny.json"
         self.shot.write_text(TINY_SHOT)
         self.out = self.folder / "out"
