@@ -72,8 +72,15 @@ bool ViewerApp::render_frame() {
     ParameterValue& rebuild = session_->graph().model().graph_parameters().find(k_rebuild)->value;
     const ParameterValue chosen = rebuild;
     if (std::exchange(measuring_, false)) rebuild = int(Rebuild::every_frame);
+    BetweenPasses between;
+    if (const BetweenPasses answer = between_passes()) {
+        between = [&, answer](size_t done) {
+            rebuild = chosen; // the graph asks for it when a frame begins; the panels show what a person chose
+            return answer(done);
+        };
+    }
     bool whole = true;
-    attempt([&] { whole = session_->render(false, between_passes()); });
+    attempt([&] { whole = session_->render(false, between); });
     rebuild = chosen;
     finish_slow_frame();
     return whole;
