@@ -3,6 +3,7 @@
 #include "scene/find_scene.h"
 #include "scene/keyframes.h"
 #include "scene/shot_parts.h"
+#include "scene/turn.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -88,11 +89,7 @@ Environment read_environment(const json& value, const std::filesystem::path& bas
 static std::optional<glm::dquat> read_rotation(JsonObject& object) {
     const json* value = object.find("rotation");
     if (!value) return std::nullopt;
-    if (auto degrees = json_vector(*value)) {
-        glm::dvec3 angle = glm::radians(*degrees);
-        return glm::angleAxis(angle.z, glm::dvec3(0, 0, 1)) * glm::angleAxis(angle.y, glm::dvec3(0, 1, 0)) *
-               glm::angleAxis(angle.x, glm::dvec3(1, 0, 0));
-    }
+    if (auto degrees = json_vector(*value)) return rotation_of(*degrees);
     bool four = value->is_array() && value->size() == 4;
     for (const json& item : *value)
         four = four && item.is_number() && std::isfinite(item.get<float>());
