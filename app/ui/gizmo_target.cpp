@@ -49,7 +49,8 @@ std::optional<GizmoTarget> object_target(PanelContext context, size_t index) {
     if (free.turn)
         target.turn = [context, index, place, front](const glm::vec3& direction) mutable {
             ObjectPlace turned = place;
-            turned.rotation = settled(turn_between(front, glm::normalize(glm::dvec3(direction))) * place.rotation);
+            turned.rotation =
+                glm::normalize(turn_between(front, glm::normalize(glm::dvec3(direction))) * place.rotation);
             move_object(context, index, turned);
         };
     return target;

@@ -113,7 +113,7 @@ json light_json(const Light& light, const Node* node, const glm::dmat4& world) {
 json rotation_json(const glm::dquat& rotation) {
     const glm::dvec3 round = glm::round(1000.0 * angles_of(rotation)) / 1000.0 + 0.0; // no -0
     if (rotation_of(round) == rotation) return exact(round);
-    const glm::dquat q = settled(rotation);
+    const glm::dquat q = of_length_1(rotation);
     return {exact(q.x), exact(q.y), exact(q.z), exact(q.w)};
 }
 

@@ -96,7 +96,7 @@ static std::optional<glm::dquat> read_rotation(JsonObject& object) {
     if (four) {
         glm::dquat q((*value)[3].get<double>(), (*value)[0].get<double>(), (*value)[1].get<double>(),
                      (*value)[2].get<double>());
-        if (glm::length(q) > 1e-6) return glm::normalize(q);
+        if (glm::length(q) > 1e-6) return of_length_1(q);
     }
     object.errors().add(object.at("rotation") + " must be 3 angles in degrees or a quaternion x, y, z, w, but is " +
                         json_shown(*value));

@@ -22,13 +22,8 @@ glm::dvec3 angles_of(const glm::dquat& rotation) {
     return glm::degrees(glm::dvec3(x, y, z));
 }
 
-glm::dquat settled(glm::dquat rotation) {
-    for (int i = 0; i < 8; ++i) {
-        const glm::dquat again = glm::normalize(rotation);
-        if (again == rotation) break;
-        rotation = again;
-    }
-    return rotation;
+glm::dquat of_length_1(const glm::dquat& rotation) {
+    return std::abs(glm::dot(rotation, rotation) - 1) < 1e-13 ? rotation : glm::normalize(rotation);
 }
 
 glm::dquat turn_between(const glm::dvec3& from, const glm::dvec3& to) {

@@ -11,9 +11,9 @@ glm::dquat rotation_of(const glm::dvec3& degrees);
 /// Angles that make the rotation up to rounding: y is within ±90, x and z within ±180.
 glm::dvec3 angles_of(const glm::dquat& rotation);
 
-/// The unit quaternion nearest to `rotation` that is not changed when it is normalized again: what is written to a
-/// file then reads back as the same bits.
-glm::dquat settled(glm::dquat rotation);
+/// `rotation` itself where its length is 1 but for rounding, so that what is written to a file reads back as the same
+/// bits; else with its length made 1.
+glm::dquat of_length_1(const glm::dquat& rotation);
 
 /// The shortest turn that brings one direction to another; both of length 1.
 glm::dquat turn_between(const glm::dvec3& from, const glm::dvec3& to);

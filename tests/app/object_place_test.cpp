@@ -68,7 +68,7 @@ TEST_P(ObjectInGraph, ThePictureIsThatOfTheSavedShot) {
     EXPECT_FALSE(differs_from_shot(*session, ui.window.opened));
     ObjectPlace place = place_of_object(*session, 0);
     place.position = {0.1, 0.25, -0.3};
-    place.rotation = settled(rotation_of({10, 33.3, 5}) * turn_between({0, 0, 1}, {0.6, 0, 0.8}));
+    place.rotation = rotation_of({10, 33.3, 5}) * turn_between({0, 0, 1}, {0.6, 0, 0.8});
     place.scale = {1.2, 0.7, 1};
     move(0, place);
     session->measure_moved_needs();
@@ -143,7 +143,7 @@ TEST_F(ObjectPlaceTest, ItIsWorkThatIsKept) {
     open("direct");
     ObjectPlace place = place_of_object(*session, 0);
     place.position.z = 0.25;
-    place.rotation = settled(rotation_of({1, 2, 3}));
+    place.rotation = rotation_of({1, 2, 3});
     move(0, place);
     const std::vector<float> moved = picture(*session);
     PanelContext panels = context();
