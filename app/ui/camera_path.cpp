@@ -2,6 +2,7 @@
 
 #include "app/ui/keys.h"
 #include "app/ui/shot_writer.h"
+#include "scene/loaded_space.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,8 +51,8 @@ Path path_through(const std::vector<Camera>& cameras, const LoadedSpace& space, 
     constexpr int k_max_steps = 24;
     std::vector<glm::dvec3> positions, targets;
     for (const Camera& camera : cameras) {
-        positions.push_back(space.to_file(camera.position));
-        targets.push_back(space.to_file(camera.target));
+        positions.push_back(place_in_file(space, camera.position));
+        targets.push_back(place_in_file(space, camera.target));
     }
     const int steps = int(std::clamp(std::round(seconds * fps), 1.0f, float(k_max_steps)));
     Path path;
@@ -61,8 +62,8 @@ Path path_through(const std::vector<Camera>& cameras, const LoadedSpace& space, 
             const double s = double(i) / steps;
             PathKey key;
             key.t = float(double(start) + (double(part) + s) * double(seconds));
-            key.position = spline(positions, part, s);
-            key.target = spline(targets, part, s);
+            key.position = place_in_file(space, space.to_loaded(spline(positions, part, s)));
+            key.target = place_in_file(space, space.to_loaded(spline(targets, part, s)));
             key.has_target = true;
             // Where it would look at itself it goes on looking as before.
             if (glm::distance(key.position, key.target) < 1e-6 * glm::length(ahead)) key.target = key.position + ahead;

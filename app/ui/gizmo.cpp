@@ -2,6 +2,7 @@
 
 #include "app/ui/style.h"
 #include "app/ui/widget_rects.h"
+#include "scene/loaded_space.h"
 
 #include <algorithm>
 #include <cmath>
@@ -151,7 +152,8 @@ void Gizmo::grab(Handle handle, const Shape& shape, const GizmoTarget& target, c
 
 void Gizmo::drag(const Shape& shape, const glm::vec3& ray) const {
     if (held_ == k_cone) return held_target_.open(std::clamp(shape.cone_under(ray) + grabbed_cone_, 0.0f, 0.5f * k_pi));
-    if (held_ != k_direction) return held_target_.move(shape.space.to_file(shape.place_under(held_, ray) + grabbed_));
+    if (held_ != k_direction)
+        return held_target_.move(place_in_file(shape.space, shape.place_under(held_, ray) + grabbed_));
     const glm::vec3 now = direction_on_ball(shape.view, shape.middle, k_arrow * shape.length, ray, shape.arrow);
     held_target_.turn(
         glm::vec3(glm::normalize(shape.space.to_file(shape.middle + now) - shape.space.to_file(shape.middle))));
