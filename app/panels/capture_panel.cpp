@@ -58,7 +58,7 @@ void draw_sequence(PanelContext& context) {
     note_widget("capture.record");
     help(("Each frame, from the present one on (" + chord_of(KeyCommand::record) + ").").c_str());
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 7);
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
     static const char* const kinds[] = {"numbered PNG", "MP4", "WebM"};
     const bool open = ImGui::BeginCombo("##kind", kinds[size_t(capture.kind)]);
     note_widget("capture.kind");
