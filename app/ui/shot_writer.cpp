@@ -11,6 +11,7 @@
 #include "scene/turn.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace bounce {
@@ -90,6 +91,15 @@ json path_json(const Path& path) {
     return keys;
 }
 
+/// Round degrees, or others, that read back as the same angle; the nearest where none do.
+json degrees(float angle) {
+    const float plain = glm::degrees(angle);
+    const float round = std::round(plain * 1000) / 1000;
+    for (float value : {round, plain, std::nextafter(plain, 0.0f), std::nextafter(plain, 1000.0f)})
+        if (glm::radians(value) == angle) return number(value);
+    return number(plain);
+}
+
 json light_json(const Light& light, const Node* node, const glm::dmat4& world) {
     static const char* const types[] = {"point", "spot", "directional"};
     json out;
@@ -99,11 +109,11 @@ json light_json(const Light& light, const Node* node, const glm::dmat4& world) {
     if (light.type != LightType::point) out["direction"] = vector(glm::vec3(-glm::normalize(glm::dvec3(world[2]))));
     out["intensity"] = vector(light.intensity);
     if (light.type == LightType::spot) {
-        out["inner_cone_deg"] = number(glm::degrees(light.inner_cone));
-        out["outer_cone_deg"] = number(glm::degrees(light.outer_cone));
+        out["inner_cone_deg"] = degrees(light.inner_cone);
+        out["outer_cone_deg"] = degrees(light.outer_cone);
     }
     if (light.radius > 0) out["radius"] = number(light.radius);
-    if (light.angular_radius > 0) out["angular_radius_deg"] = number(glm::degrees(light.angular_radius));
+    if (light.angular_radius > 0) out["angular_radius_deg"] = degrees(light.angular_radius);
     if (!light.enabled) out["enabled"] = false;
     if (node && !node->path.empty()) out["path"] = path_json(node->path);
     return out;
