@@ -217,6 +217,7 @@ class WindowScene(WindowTest):
         self.assertAlmostEqual(light["inner_cone"] / light["outer_cone"], 0.5, 5)
         self.assertEqual((light["position"], light["direction"]), (before[0]["position"], before[0]["direction"]))
         self.assertTrue(state["undo"].endswith("cone"))
+        self.assertLess(self.same_as_saved()["lights"][0]["outer_cone_deg"], 39)
         self.input("key", "ctrl+z")
         self.wait(lambda state: state["lights"] == before and not state["undo"], "undo")
 
