@@ -176,13 +176,17 @@ static void warn_of_clipping(const Session& session) {
     }
 }
 
+Image8 display_picture(const Session& session, const std::string& resource) {
+    const GpuTexture& texture = find_texture(session, resource.empty() ? "out.display" : resource);
+    const bool encoded = resource.empty() || resource == "out.display";
+    return to_display(read_layer(texture, 0, 0, session.value_scale(resource)), encoded);
+}
+
 void write_picture(const Session& session, const fs::path& path, const std::string& resource) {
     check_output_path(path);
     if (resource.empty()) warn_of_clipping(session);
     if (path.extension() == ".png") {
-        const GpuTexture& texture = find_texture(session, resource.empty() ? "out.display" : resource);
-        bool encoded = resource.empty() || resource == "out.display";
-        write_png(path, to_display(read_layer(texture, 0, 0, session.value_scale(resource)), encoded));
+        write_png(path, display_picture(session, resource));
         return;
     }
     LayeredImage image;

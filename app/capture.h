@@ -18,10 +18,13 @@ Image read_layer(const GpuTexture& texture, int mip = 0, int layer = 0, float sc
 /// Every out.* part of the present picture but the display: three channels each, one for occlusion.
 LayeredImage read_parts(const Session& session);
 
+/// out.display, or the resource clamped to [0,1] and sRGB-encoded unless it is 8-bit already. Throws Error.
+Image8 display_picture(const Session& session, const std::string& resource = "");
+
 /// Writes the session's present picture. `.exr`: every out.* part as a named layer, out.radiance also as the plain one
 /// that other programs show (or the one resource, plain; each layer or slice of an array as "name.0", …, the first also
-/// plain); `.png`: out.display (or the resource, clamped to [0,1] and sRGB-encoded unless it
-/// is 8-bit already). Throws Error (unknown resource with the nearest, unwritable path, other extension).
+/// plain); `.png`: display_picture(). Throws Error (unknown resource with the nearest, unwritable path, other
+/// extension).
 void write_picture(const Session& session, const std::filesystem::path& path, const std::string& resource = "");
 
 /// Bytes that write_picture takes of main memory, about: what is read back, and the encoded file. Wants a planned

@@ -1,6 +1,7 @@
 #include "app/session.h"
 
 #include "app/omitted_light.h"
+#include "core/digest.h"
 #include "core/error.h"
 #include "core/limits.h"
 #include "core/log.h"
@@ -202,9 +203,31 @@ void Session::set_parameter(const std::string& name, const std::string& text, Pa
     if (graph_->model().has_auto(true)) resolve_auto(graph_->model());
 }
 
+/// Of what a person may move about.
+static uint64_t digest_of_places(const Shot& shot) {
+    Digest digest;
+    for (int node : shot.object_nodes) {
+        const Node& object = shot.scene.nodes[size_t(node)];
+        digest.add(object.translation).add(object.rotation).add(object.scale);
+    }
+    for (const PathKey& key : shot.camera_path.keys)
+        digest.add(key.t).add(key.position).add(key.target);
+    return digest.value();
+}
+
 const SceneNeeds& Session::needs() {
-    if (!needs_) needs_ = scene_needs(*shot_);
+    if (!needs_) {
+        needs_ = scene_needs(*shot_);
+        needs_places_ = digest_of_places(*shot_);
+    }
     return *needs_;
+}
+
+bool Session::measure_moved_needs() {
+    if (!needs_ || digest_of_places(*shot_) == needs_places_) return false;
+    needs_.reset();
+    resolve_auto(graph_->model());
+    return true;
 }
 
 void Session::resolve_auto(GraphModel& model) {

@@ -5,6 +5,7 @@
 #include "app/commands/option_checks.h"
 #include "app/commands/session_options.h"
 #include "app/experiments/error_over_frames.h"
+#include "app/film.h"
 #include "app/hosts/headless.h"
 #include "app/print.h"
 #include "app/progress.h"
@@ -15,6 +16,7 @@
 #include "core/memory.h"
 #include "graph/shader_log.h"
 
+#include <csignal>
 #include <cstdio>
 #include <fmt/format.h>
 #include <optional>
@@ -59,11 +61,36 @@ std::string numbered(const std::string& pattern, int number) {
 /// What can be told of the output before anything is computed.
 void check_output(const RenderArguments& arguments) {
     if (arguments.output.empty()) throw Error("invalid --output '': expected a file, as x.exr or x.png");
+    if (!arguments.timings.empty()) check_output_file(arguments.timings);
+    if (is_film(arguments.output)) return check_film_path(arguments.output);
+    const std::string extension = std::filesystem::path(arguments.output).extension().string();
+    if (extension != ".exr" && extension != ".png")
+        throw Error(fmt::format("invalid output name '{}': expected one that ends in .exr or .png, or, for a film, in "
+                                ".mp4 or .webm",
+                                arguments.output));
     const bool every_frame = !numbered(arguments.output, 0).empty();
     for (int frame : {0, arguments.frames - 1})
         check_output_path(every_frame ? numbered(arguments.output, frame) : arguments.output);
-    if (!arguments.timings.empty()) check_output_file(arguments.timings);
 }
+
+/// While a film is written, Ctrl+C ends it between two frames, so that no half of it is left.
+class InterruptWatch {
+  public:
+    InterruptWatch() {
+        for (int signal : {SIGINT, SIGTERM})
+            std::signal(signal, [](int) { asked_to_end_ = 1; });
+    }
+    ~InterruptWatch() {
+        for (int signal : {SIGINT, SIGTERM})
+            std::signal(signal, SIG_DFL);
+    }
+    static void check() {
+        if (asked_to_end_) throw Error("interrupted: no film was written");
+    }
+
+  private:
+    static inline volatile std::sig_atomic_t asked_to_end_ = 0;
+};
 
 /// Headless runs write nothing when a shader does not compile.
 void refuse_broken(const Session& session) {
@@ -82,10 +109,17 @@ int render(const RenderArguments& arguments) {
     spdlog::debug("{}", describe(context.capabilities()));
     Session session(options);
     if (!arguments.watch) refuse_broken(session);
-    require_memory(picture_bytes(session, arguments.output, arguments.resource),
+    const bool film_wanted = is_film(arguments.output);
+    require_memory(picture_bytes(session, film_wanted ? "frame.png" : arguments.output, arguments.resource),
                    fmt::format("the picture '{}' of {}x{}", arguments.output, session.size().x, session.size().y),
                    "lower --size, or write one part with --resource");
-    bool every_frame = !numbered(arguments.output, 0).empty();
+    const bool every_frame = !film_wanted && !numbered(arguments.output, 0).empty();
+    std::optional<Film> film;
+    std::optional<InterruptWatch> interrupts;
+    if (film_wanted) {
+        interrupts.emplace();
+        film.emplace(arguments.output, session.size(), session.shot().fps);
+    }
     Progress progress("rendering");
     for (int frame = 0; frame < arguments.frames; ++frame) {
         if (arguments.watch) session.poll_files();
@@ -93,11 +127,18 @@ int render(const RenderArguments& arguments) {
         session.render(true);
         if (!arguments.watch) refuse_broken(session);
         if (every_frame) write_picture(session, numbered(arguments.output, frame), arguments.resource);
+        if (film) {
+            film->add(display_picture(session, arguments.resource));
+            interrupts->check();
+        }
         if (errors) errors->add(session, frame + 1, frame + 1 == arguments.frames);
         progress.update(double(frame + 1) / arguments.frames);
     }
     if (arguments.watch) refuse_broken(session);
-    if (!every_frame) write_picture(session, arguments.output, arguments.resource);
+    if (film)
+        film->finish();
+    else if (!every_frame)
+        write_picture(session, arguments.output, arguments.resource);
     session.graph().finish_timings();
     if (!arguments.timings.empty()) write_timings(session, arguments.timings);
     if (arguments.quiet) return 0;
@@ -117,11 +158,11 @@ void add_render_command(CLI::App& app, CommandFunction& chosen) {
     arguments->add_to(*command, true);
     command
         ->add_option("-o,--output", arguments->output,
-                     "x.exr (linear parts), x.png (display); %04d numbers every frame (required)")
+                     "x.exr (linear parts), x.png (display), x_%04d.png, x.mp4 or x.webm (all frames)")
         ->type_name("FILE");
     command
         ->add_option("--frames", arguments->frames,
-                     "render so many frames; the last is written, or all where the name holds %04d")
+                     "render so many frames; the last is written, or all as a film or with %04d")
         ->check(whole_between(1, k_max_frames));
     command->add_option("--resource", arguments->resource, "write this one resource (gbuffer.normal …)")
         ->check(not_empty());

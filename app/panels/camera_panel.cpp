@@ -1,7 +1,9 @@
 // The camera in numbers, its bookmarks, the size of the picture, and time.
 #include "app/panels/panel.h"
 #include "app/ui/camera_control.h"
+#include "app/ui/camera_path.h"
 #include "app/ui/marks.h"
+#include "app/ui/shot_writer.h"
 #include "app/ui/style.h"
 #include "app/ui/typed_number.h"
 #include "app/ui/widget_rects.h"
@@ -52,11 +54,8 @@ void draw_numbers(PanelContext& context) {
         session.set_camera(camera);
         context.ui.redraw();
     }
-    ImGui::BeginDisabled(!session.camera_is_set());
-    if (ImGui::Button("shot's camera")) {
-        session.follow_shot_camera();
-        context.ui.redraw();
-    }
+    ImGui::BeginDisabled(!session.camera_is_set() && !camera_path_edited(session.shot(), context.ui.window.opened));
+    if (ImGui::Button("shot's camera")) go_to_shot_camera(context);
     ImGui::EndDisabled();
     help("Home does the same.");
     ImGui::SameLine();
@@ -71,6 +70,30 @@ void draw_numbers(PanelContext& context) {
         context.ui.say("the camera is on the clipboard, as a shot file holds it");
     }
     help("As JSON, for a shot file.");
+}
+
+/// Between two bookmarks or more.
+void draw_path(PanelContext& context) {
+    WindowState& window = context.ui.window;
+    Session& session = context.session;
+    if (bookmarks_of(window, session).size() < 2) return;
+    if (ImGui::Button("path through them")) make_camera_path(context);
+    note_widget("camera.path");
+    help("The camera goes from bookmark to bookmark, from the first frame on. Home drops the path.");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 4);
+    edit_number("s each", window.path_seconds, [](float& value) {
+        return ImGui::DragFloat("s each", &value, 0.05f, 0.1f, 600, "%.3g", ImGuiSliderFlags_AlwaysClamp);
+    });
+    note_widget("camera.path_seconds");
+    help("Seconds from one bookmark to the next, for the next path that is made.");
+    if (!session.camera_is_set() || !camera_path_edited(session.shot(), window.opened)) return;
+    if (ImGui::Button("follow the path")) {
+        session.follow_shot_camera();
+        context.ui.redraw();
+    }
+    note_widget("camera.follow_path");
+    help("The camera was moved by hand since.");
 }
 
 void draw_bookmarks(PanelContext& context) {
@@ -109,6 +132,7 @@ void draw_bookmarks(PanelContext& context) {
             {shot, name.empty() ? fmt::format("view {}", number + 1) : name, context.session.camera()});
         name.clear();
     }
+    draw_path(context);
 }
 
 void draw_size(PanelContext& context) {

@@ -1,4 +1,4 @@
-// Pictures, sequences, shots and presets as files, and the command that makes the picture again.
+// Pictures, sequences, films, shots and presets as files, and the command that makes the picture again.
 #include "app/graph_preset.h"
 #include "app/panels/panel.h"
 #include "app/ui/captures.h"
@@ -56,10 +56,21 @@ void draw_sequence(PanelContext& context) {
     }
     if (ImGui::Button("record")) later(context, start_recording);
     note_widget("capture.record");
-    help(("Each frame as a numbered PNG, from the present frame on (" + chord_of(KeyCommand::record) + ").").c_str());
+    help(("Each frame, from the present one on (" + chord_of(KeyCommand::record) + ").").c_str());
     ImGui::SameLine();
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
+    static const char* const kinds[] = {"numbered PNG", "MP4", "WebM"};
+    const bool open = ImGui::BeginCombo("##kind", kinds[size_t(capture.kind)]);
+    note_widget("capture.kind");
+    for (int kind = 0; open && kind < 3; ++kind) {
+        if (ImGui::Selectable(kinds[kind], kind == int(capture.kind))) capture.kind = RecordingKind(kind);
+        note_widget(std::string("capture.kind.") + kinds[kind]);
+    }
+    if (open) ImGui::EndCombo();
+    help("Films are written by ffmpeg, where that is installed, at the shot's frames per second.");
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 7);
     ImGui::InputInt("frames", &capture.frames, 1, 30);
+    note_widget("capture.frames");
     capture.frames = std::clamp(capture.frames, 0, 1000000);
     help("0: until stopped.");
 }
@@ -126,7 +137,7 @@ void draw_preset(PanelContext& context) {
 void draw_capture_panel(PanelContext& context) {
     ImGui::PushID("capture");
     if (ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen)) draw_pictures(context);
-    if (ImGui::CollapsingHeader("Numbered frames", ImGuiTreeNodeFlags_DefaultOpen)) draw_sequence(context);
+    if (ImGui::CollapsingHeader("Recording", ImGuiTreeNodeFlags_DefaultOpen)) draw_sequence(context);
     if (ImGui::CollapsingHeader("Make it again", ImGuiTreeNodeFlags_DefaultOpen)) draw_reproduction(context);
     if (ImGui::CollapsingHeader("Graph preset", ImGuiTreeNodeFlags_DefaultOpen)) draw_preset(context);
     ImGui::PopID();

@@ -62,9 +62,12 @@ class LightRow {
     void draw_tools() {
         int& chosen = context_.ui.chosen_light;
         bool dragged = chosen == int(index_);
-        if (ImGui::Checkbox("handles", &dragged)) chosen = dragged ? int(index_) : -1;
+        if (ImGui::Checkbox("handles", &dragged)) {
+            chosen = dragged ? int(index_) : -1;
+            context_.ui.chosen_object = -1;
+        }
         note_widget(fmt::format("light.{}.handles", index_));
-        help("Shows it in the picture: drag its middle, an axis, or the end of its arrow.");
+        help("Shows it in the picture: drag its middle, an axis, the end of its arrow, or the rim of its cone.");
         ImGui::SameLine();
         asked_for_copy = ImGui::SmallButton("duplicate");
         note_widget(fmt::format("light.{}.duplicate", index_));

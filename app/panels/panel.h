@@ -15,7 +15,7 @@ void draw_inspector_panel(PanelContext& context);  ///< exact values under the c
 void draw_cones_panel(PanelContext& context);      ///< the gather's cones at the pointer's pixel, sphere by sphere
 void draw_scene_panel(PanelContext& context);      ///< shot, scene facts, lights, materials, environment
 void draw_camera_panel(PanelContext& context);     ///< camera, bookmarks, time
-void draw_capture_panel(PanelContext& context);    ///< PNG, EXR, numbered frames, shot and command line, graph preset
+void draw_capture_panel(PanelContext& context);    ///< PNG, EXR, recordings, shot and command line, graph preset
 void draw_compare_panel(PanelContext& context);    ///< reference, split, error, the live point on a chart
 void draw_stability_panel(PanelContext& context);  ///< a case in which methods fail, on the shown graph; its curve
 void draw_time_panel(PanelContext& context);       ///< times, memory, error and change of the last frames

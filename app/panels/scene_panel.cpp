@@ -1,6 +1,7 @@
 // The shot that is shown, what it holds, and its lights and materials to turn at.
 #include "app/panels/light_rows.h"
 #include "app/panels/material_rows.h"
+#include "app/panels/object_rows.h"
 #include "app/panels/panel.h"
 #include "app/ui/edit.h"
 #include "app/ui/marks.h"
@@ -157,6 +158,8 @@ void draw_scene_panel(PanelContext& context) {
         draw_surroundings(context);
         draw_light_rows(context);
     }
+    if (!session.shot().object_nodes.empty() && ImGui::CollapsingHeader("Objects", ImGuiTreeNodeFlags_DefaultOpen))
+        draw_object_rows(context);
     if (ImGui::CollapsingHeader("Materials")) draw_material_rows(context);
     ImGui::PopID();
 }

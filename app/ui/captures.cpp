@@ -1,9 +1,11 @@
 #include "app/ui/captures.h"
 
 #include "app/capture.h"
+#include "app/film.h"
 #include "core/error.h"
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace bounce {
 
@@ -38,19 +40,28 @@ void capture_picture(PanelContext& context, const std::string& extension) {
     context.ui.say("saved " + path.lexically_normal().string());
 }
 
+/// A recording gets a name of its own, so that a second take does not overwrite the first.
+static std::string new_sequence(const CaptureState& capture, const std::string& stem) {
+    std::error_code ignored;
+    for (int take = 1;; ++take) {
+        const std::string start =
+            (fs::path(capture.folder) / fmt::format("{}_take{}_", stem, take)).lexically_normal().string();
+        if (!fs::exists(start + "0000.png", ignored)) return start + "%04d.png";
+    }
+}
+
 void start_recording(PanelContext& context) {
     CaptureState& capture = context.ui.window.capture;
     make_folder(capture.folder);
-    // A sequence gets a number of its own, so that a second take does not overwrite the first.
-    std::error_code ignored;
-    std::string stem = capture_stem(context.session);
-    int take = 1;
-    auto pattern = [&] {
-        return (fs::path(capture.folder) / fmt::format("{}_take{}_", stem, take)).lexically_normal().string();
-    };
-    while (fs::exists(pattern() + "0000.png", ignored))
-        ++take;
-    capture.pattern = pattern() + "%04d.png";
+    const std::string stem = capture_stem(context.session);
+    capture.film.reset();
+    if (capture.kind == RecordingKind::numbered_png) {
+        capture.pattern = new_sequence(capture, stem);
+    } else {
+        const fs::path file = new_file(capture.folder, stem, capture.kind == RecordingKind::mp4 ? ".mp4" : ".webm");
+        check_film_path(file);
+        capture.pattern = file.lexically_normal().string();
+    }
     capture.recording = true;
     capture.written = 0;
     context.ui.say("recording " + capture.pattern);
@@ -59,22 +70,46 @@ void start_recording(PanelContext& context) {
 void stop_recording(PanelContext& context) {
     CaptureState& capture = context.ui.window.capture;
     capture.recording = false;
+    if (const std::shared_ptr<Film> film = std::exchange(capture.film, nullptr)) {
+        film->finish();
+        capture.last = fs::absolute(capture.pattern).lexically_normal().string();
+    }
     context.ui.say(fmt::format("recorded {} frames: {}", capture.written, capture.pattern));
+}
+
+/// Its size is that of its first frame.
+static void record_film_frame(PanelContext& context) {
+    CaptureState& capture = context.ui.window.capture;
+    const glm::ivec2 size = context.session.size();
+    if (!capture.film) capture.film = std::make_shared<Film>(capture.pattern, size, context.session.shot().fps);
+    if (capture.film->size() == size) {
+        capture.film->add(display_picture(context.session));
+        ++capture.written;
+        return;
+    }
+    stop_recording(context);
+    context.ui.say(fmt::format("the picture's size changed, and so the film ended after {} frames: {}", capture.written,
+                               capture.pattern));
 }
 
 void record_frame(PanelContext& context) {
     CaptureState& capture = context.ui.window.capture;
-    std::string start = capture.pattern.substr(0, capture.pattern.find('%'));
-    fs::path path = fmt::format("{}{:04}.png", start, capture.written);
     try {
-        write_picture(context.session, path);
+        if (is_film(capture.pattern)) {
+            record_film_frame(context);
+        } else {
+            const std::string start = capture.pattern.substr(0, capture.pattern.find('%'));
+            const fs::path path = fmt::format("{}{:04}.png", start, capture.written);
+            write_picture(context.session, path);
+            capture.last = fs::absolute(path).lexically_normal().string();
+            ++capture.written;
+        }
     } catch (...) {
         capture.recording = false;
+        capture.film.reset();
         throw;
     }
-    capture.last = fs::absolute(path).lexically_normal().string();
-    ++capture.written;
-    if (capture.frames > 0 && capture.written >= capture.frames) stop_recording(context);
+    if (capture.recording && capture.frames > 0 && capture.written >= capture.frames) stop_recording(context);
 }
 
 } // namespace bounce

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of the window's session as files: one, or a numbered sequence.
+// Pictures of the window's session as files: one, a numbered sequence, or a film.
 
 #include "app/ui/panel_context.h"
 
@@ -9,8 +9,9 @@ namespace bounce {
 void capture_picture(PanelContext& context, const std::string& extension);
 
 /// From the next frame on each one is written, and time goes on by one frame each. Throws Error when the folder cannot
-/// be written.
+/// be written, or a film is asked for and ffmpeg is not installed.
 void start_recording(PanelContext& context);
+/// Throws Error when a film fails.
 void stop_recording(PanelContext& context);
 /// Writes the frame that was just rendered; stops when enough are.
 void record_frame(PanelContext& context);

@@ -11,6 +11,10 @@ namespace bounce {
 
 namespace {
 
+std::string name_of(const Light& light, size_t index) {
+    return light.name.empty() ? "light " + std::to_string(index + 1) : light.name;
+}
+
 /// What is not zero by rounding alone would be shown as -0.000.
 glm::vec3 clean(glm::vec3 v) {
     for (int i = 0; i < 3; ++i) {
@@ -66,6 +70,7 @@ void append(PanelContext& context, const std::string& what, Light light, const L
         scene.nodes.push_back(node);
         put(scene, int(scene.nodes.size()) - 1, place, time);
         context.ui.chosen_light = node.light;
+        context.ui.chosen_object = -1;
     });
 }
 
@@ -125,12 +130,23 @@ void move_light(PanelContext& context, size_t light, const LightPlace& place) {
     const Node before = scene.nodes[size_t(index)];
     put(scene, index, place, session.time());
     const Node moved = std::exchange(scene.nodes[size_t(index)], before);
-    const std::string name =
-        scene.lights[light].name.empty() ? "light " + std::to_string(light + 1) : scene.lights[light].name;
-    edit(context, name + ": place", before, moved,
+    edit(context, name_of(scene.lights[light], light) + ": place", before, moved,
          [&session, &ui = context.ui, node = size_t(index)](const Node& value) {
              if (node >= session.shot().scene.nodes.size()) return;
              session.shot().scene.nodes[node] = value;
+             session.scene_edited();
+             ui.redraw();
+         });
+}
+
+void open_cone(PanelContext& context, size_t light, const Light& before, float outer_cone) {
+    Light after = before;
+    after.outer_cone = std::clamp(outer_cone, glm::radians(0.5f), glm::radians(90.0f));
+    after.inner_cone = before.inner_cone * (after.outer_cone / before.outer_cone);
+    edit(context, name_of(before, light) + ": cone", before, after,
+         [&session = context.session, &ui = context.ui, light](const Light& value) {
+             if (light >= session.shot().scene.lights.size()) return;
+             session.shot().scene.lights[light] = value;
              session.scene_edited();
              ui.redraw();
          });

@@ -26,6 +26,10 @@ bool is_driven(const Scene& scene, size_t light);
 /// for a light that is driven or that no node places.
 void move_light(PanelContext& context, size_t light, const LightPlace& place);
 
+/// Gives a spot, which was `before` when the step began, that outer cone (half-angle in radians, limited to what shots
+/// hold); the inner one keeps its share of it.
+void open_cone(PanelContext& context, size_t light, const Light& before, float outer_cone);
+
 /// A light in front of the camera (a directional one shines along the view), as bright as the scene's size asks for.
 /// It becomes the chosen one.
 void add_light(PanelContext& context, LightType type);

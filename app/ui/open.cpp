@@ -24,6 +24,10 @@ SceneBaseline baseline_of(const Session& session) {
     for (const Node& node : shot.scene.nodes) {
         if (node.light >= 0) baseline.light_nodes[size_t(node.light)] = node;
     }
+    for (int node : shot.object_nodes)
+        baseline.object_nodes.push_back(shot.scene.nodes[size_t(node)]);
+    baseline.camera = shot.camera;
+    baseline.camera_path = shot.camera_path;
     baseline.materials = shot.scene.materials;
     baseline.environment = shot.environment.radiance;
     baseline.diffuse_only = shot.diffuse_only;
@@ -44,6 +48,7 @@ static void open_shot(PanelContext& context, const std::string& name, bool as_in
     ui.window.opened = baseline_of(session);
     ui.window.capture.saved_shot.clear();
     ui.pinned_rays.reset();
+    ui.chosen_light = ui.chosen_object = -1;
     ui.cursor_locked = false;
     ui.cursor_pixel = glm::ivec2(-1);
     ui.redraw();

@@ -8,8 +8,10 @@
 #include "core/scanner.h"
 #include "scene/find_scene.h"
 #include "scene/keyframes.h"
+#include "scene/turn.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace bounce {
@@ -36,6 +38,15 @@ json place(const glm::dvec3& v) {
     return {coordinate(v.x), coordinate(v.y), coordinate(v.z)};
 }
 
+/// What is computed with further, in doubles: as it is.
+json exact(double value) {
+    return json::parse(fmt::format("{}", value));
+}
+
+json exact(const glm::dvec3& v) {
+    return {exact(v.x), exact(v.y), exact(v.z)};
+}
+
 bool same_light(const Light& a, const Light& b) {
     return a.intensity == b.intensity && a.inner_cone == b.inner_cone && a.outer_cone == b.outer_cone &&
            a.radius == b.radius && a.angular_radius == b.angular_radius && a.enabled == b.enabled;
@@ -43,6 +54,21 @@ bool same_light(const Light& a, const Light& b) {
 
 bool same_place(const Node& a, const Node& b) {
     return a.translation == b.translation && a.rotation == b.rotation && a.has_matrix == b.has_matrix;
+}
+
+bool same_object(const Node& a, const Node& b) {
+    return a.translation == b.translation && a.rotation == b.rotation && a.scale == b.scale;
+}
+
+bool same_path(const Path& a, const Path& b) {
+    return std::equal(
+        a.keys.begin(), a.keys.end(), b.keys.begin(), b.keys.end(), [](const PathKey& x, const PathKey& y) {
+            return x.t == y.t && x.position == y.position && x.target == y.target && x.has_target == y.has_target;
+        });
+}
+
+bool same_view(const Camera& a, const Camera& b) {
+    return a.position == b.position && a.target == b.target && a.up == b.up && a.vfov == b.vfov;
 }
 
 const Node* node_of(const Scene& scene, int light) {
@@ -58,11 +84,20 @@ bool lights_edited(const Scene& scene, const SceneBaseline& opened) {
 json path_json(const Path& path) {
     json keys = json::array();
     for (const PathKey& key : path.keys) {
-        json out{{"t", number(key.t)}, {"position", place(key.position)}};
-        if (key.has_target) out["target"] = place(key.target);
+        json out{{"t", number(key.t)}, {"position", exact(key.position)}};
+        if (key.has_target) out["target"] = exact(key.target);
         keys.push_back(out);
     }
     return keys;
+}
+
+/// Round degrees, or others, that read back as the same angle; the nearest where none do.
+json degrees(float angle) {
+    const float plain = glm::degrees(angle);
+    const float round = std::round(plain * 1000) / 1000;
+    for (float value : {round, plain, std::nextafter(plain, 0.0f), std::nextafter(plain, 1000.0f)})
+        if (glm::radians(value) == angle) return number(value);
+    return number(plain);
 }
 
 json light_json(const Light& light, const Node* node, const glm::dmat4& world) {
@@ -74,14 +109,31 @@ json light_json(const Light& light, const Node* node, const glm::dmat4& world) {
     if (light.type != LightType::point) out["direction"] = vector(glm::vec3(-glm::normalize(glm::dvec3(world[2]))));
     out["intensity"] = vector(light.intensity);
     if (light.type == LightType::spot) {
-        out["inner_cone_deg"] = number(glm::degrees(light.inner_cone));
-        out["outer_cone_deg"] = number(glm::degrees(light.outer_cone));
+        out["inner_cone_deg"] = degrees(light.inner_cone);
+        out["outer_cone_deg"] = degrees(light.outer_cone);
     }
     if (light.radius > 0) out["radius"] = number(light.radius);
-    if (light.angular_radius > 0) out["angular_radius_deg"] = number(glm::degrees(light.angular_radius));
+    if (light.angular_radius > 0) out["angular_radius_deg"] = degrees(light.angular_radius);
     if (!light.enabled) out["enabled"] = false;
     if (node && !node->path.empty()) out["path"] = path_json(node->path);
     return out;
+}
+
+/// Round angles where they say it all, else the quaternion.
+json rotation_json(const glm::dquat& rotation) {
+    const glm::dvec3 round = glm::round(1000.0 * angles_of(rotation)) / 1000.0 + 0.0; // no -0
+    if (rotation_of(round) == rotation) return exact(round);
+    const glm::dquat q = of_length_1(rotation);
+    return {exact(q.x), exact(q.y), exact(q.z), exact(q.w)};
+}
+
+/// What was edited of one of `objects` replaces what its file says.
+void set_object(json& object, const Node& now, const Node& opened) {
+    if (now.translation != opened.translation) object["position"] = exact(now.translation);
+    if (now.rotation != opened.rotation) object["rotation"] = rotation_json(now.rotation);
+    if (now.scale != opened.scale) {
+        object["scale"] = now.scale == glm::dvec3(now.scale.x) ? exact(now.scale.x) : exact(now.scale);
+    }
 }
 
 json lights_json(const Session& session) {
@@ -157,6 +209,17 @@ size_t edited_lights(const Scene& scene, const SceneBaseline& opened) {
     return edited;
 }
 
+size_t edited_objects(const Shot& shot, const SceneBaseline& opened) {
+    size_t edited = 0;
+    for (size_t i = 0; i < shot.object_nodes.size() && i < opened.object_nodes.size(); ++i)
+        edited += !same_object(shot.scene.nodes[size_t(shot.object_nodes[i])], opened.object_nodes[i]);
+    return edited;
+}
+
+bool camera_path_edited(const Shot& shot, const SceneBaseline& opened) {
+    return !same_path(shot.camera_path, opened.camera_path);
+}
+
 size_t edited_materials(const Scene& scene, const SceneBaseline& opened) {
     size_t edited = 0;
     for (size_t i = 0; i < scene.materials.size() && i < opened.materials.size(); ++i) {
@@ -175,10 +238,17 @@ std::string shot_text(const Session& session, const SceneBaseline& opened, const
     root["height"] = session.size().y;
     root["time"] = number(session.time());
     root["fps"] = number(shot.fps);
-    if (session.camera_is_set() || !root.contains("camera_path")) {
+    if (session.camera_is_set() || (shot.camera_path.empty() && !root.contains("camera_path"))) {
         root["camera"] = json::parse(camera_json(session.camera(), shot.scene.space));
         root.erase("camera_path");
+    } else if (camera_path_edited(shot, opened)) {
+        // The path has where and whither, the camera the rest.
+        if (!root.contains("camera") || !same_view(shot.camera, opened.camera))
+            root["camera"] = json::parse(camera_json(shot.camera, shot.scene.space));
+        root["camera_path"] = path_json(shot.camera_path);
     }
+    for (size_t i = 0; i < shot.object_nodes.size() && i < opened.object_nodes.size(); ++i)
+        set_object(root.at("objects").at(i), shot.scene.nodes[size_t(shot.object_nodes[i])], opened.object_nodes[i]);
     // A default light of a plain scene is no part of its file.
     bool default_light = plain_scene && !shot.scene.lights.empty() && shot.scene.lights.back().name == "default light";
     if (default_light || lights_edited(shot.scene, opened)) {
@@ -196,9 +266,10 @@ std::string shot_text(const Session& session, const SceneBaseline& opened, const
 
 bool differs_from_shot(const Session& session, const SceneBaseline& opened) {
     const Shot& shot = session.shot();
-    return session.camera_is_set() || lights_edited(shot.scene, opened) ||
-           shot.environment.radiance != opened.environment || shot.diffuse_only != opened.diffuse_only ||
-           shot.normal_maps != opened.normal_maps || shot.material_model != opened.material_model;
+    return session.camera_is_set() || camera_path_edited(shot, opened) || lights_edited(shot.scene, opened) ||
+           edited_objects(shot, opened) > 0 || shot.environment.radiance != opened.environment ||
+           shot.diffuse_only != opened.diffuse_only || shot.normal_maps != opened.normal_maps ||
+           shot.material_model != opened.material_model;
 }
 
 std::string unsaved_edits(const Session& session, const SceneBaseline& opened) {

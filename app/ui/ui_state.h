@@ -81,6 +81,7 @@ struct UiState {
     glm::vec2 cursor_uv{-1};     ///< the same place as a share of width and height, for resources of other sizes
     bool cursor_locked = false;  ///< the inspector keeps its pixel
     int chosen_light = -1;       ///< that is dragged in the picture; −1: none
+    int chosen_object = -1;      ///< likewise a placed object; at most one of the two is chosen
 
     std::vector<FrameTime> frame_times; ///< of the last frames, newest last
     std::string notice;                 ///< one line for the status bar

@@ -105,10 +105,14 @@ WindowState state_from(const json& root) {
     get(root, "shot", state.shot);
     get(root, "graph", state.graph);
     get_number(root, "fly_speed", state.fly_speed, 0.001f, 1000);
+    get_number(root, "path_seconds", state.path_seconds, 0.1f, 600);
     get(root, "closed_passes", state.closed_passes);
     get(root, "coarse_while_moving", state.coarse_while_moving);
     get(root, "capture_folder", state.capture.folder);
     get(root, "capture_frames", state.capture.frames);
+    int kind = 0;
+    get(root, "capture_kind", kind);
+    state.capture.kind = RecordingKind(std::clamp(kind, 0, int(RecordingKind::webm)));
     if (root.contains("bookmarks")) {
         for (const json& value : root.at("bookmarks"))
             state.bookmarks.push_back(bookmark_from(value));
@@ -161,10 +165,12 @@ std::string window_state_text(const WindowState& state) {
     root["shot"] = state.shot;
     root["graph"] = state.graph;
     root["fly_speed"] = state.fly_speed;
+    root["path_seconds"] = state.path_seconds;
     root["closed_passes"] = state.closed_passes;
     root["coarse_while_moving"] = state.coarse_while_moving;
     root["capture_folder"] = state.capture.folder;
     root["capture_frames"] = state.capture.frames;
+    root["capture_kind"] = int(state.capture.kind);
     root["bookmarks"] = json::array();
     for (const Bookmark& mark : state.bookmarks) {
         root["bookmarks"].push_back({{"shot", mark.shot},

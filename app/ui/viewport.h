@@ -2,8 +2,8 @@
 // The middle of the window: the chosen texture, the pixel under the pointer, and the camera's mouse.
 
 #include "app/ui/camera_control.h"
+#include "app/ui/gizmo.h"
 #include "app/ui/layout.h"
-#include "app/ui/light_gizmo.h"
 #include "app/ui/texture_view.h"
 
 namespace bounce {
@@ -39,7 +39,7 @@ class Viewport {
     uint64_t drawn_frame_ = ~0ull;
     GLuint drawn_texture_ = 0;
     CameraControl control_;
-    LightGizmo gizmo_;
+    Gizmo gizmo_;
     int drag_button_ = -1; ///< of ImGui: 0 left, 1 right, 2 middle
     bool busy_ = false;
 };

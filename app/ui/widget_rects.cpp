@@ -2,6 +2,7 @@
 
 #include "app/ui/light_place.h"
 #include "app/ui/live_comparison.h"
+#include "app/ui/object_place.h"
 #include "app/ui/pinned_rays.h"
 #include "app/ui/settings_key.h"
 #include "app/ui/snapshots.h"
@@ -77,10 +78,19 @@ void end_widget_frame(const PanelContext& context) {
         const Light& light = session.shot().scene.lights[i];
         const LightPlace place = place_of_light(session, i).value_or(LightPlace());
         json["lights"].push_back({{"intensity", {light.intensity.r, light.intensity.g, light.intensity.b}},
+                                  {"inner_cone", light.inner_cone},
                                   {"outer_cone", light.outer_cone},
                                   {"position", {place.position.x, place.position.y, place.position.z}},
                                   {"direction", {place.direction.x, place.direction.y, place.direction.z}},
                                   {"enabled", light.enabled}});
+    }
+    json["objects"] = nlohmann::json::array();
+    for (size_t i = 0; i < session.shot().object_nodes.size(); ++i) {
+        const ObjectPlace place = place_of_object(session, i);
+        const glm::dquat& turn = place.rotation;
+        json["objects"].push_back({{"position", {place.position.x, place.position.y, place.position.z}},
+                                   {"rotation", {turn.x, turn.y, turn.z, turn.w}},
+                                   {"scale", {place.scale.x, place.scale.y, place.scale.z}}});
     }
     json["times"] = {{"passes_ms", whole_frame_ms(session.graph())},
                      {"current", times_are_current(session.graph())},

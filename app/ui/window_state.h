@@ -8,6 +8,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -46,20 +47,30 @@ struct Bookmark {
 /// What a person may edit of a scene, as it was when the shot was opened.
 struct SceneBaseline {
     std::vector<Light> lights;
-    std::vector<Node> light_nodes; ///< the node of each light
+    std::vector<Node> light_nodes;  ///< the node of each light
+    std::vector<Node> object_nodes; ///< that place the objects
+    Camera camera;
+    Path camera_path;
     std::vector<Material> materials;
     glm::vec3 environment{0};
     bool diffuse_only = false, normal_maps = true;
     MaterialModel material_model = MaterialModel::gltf;
 };
 
+class Film;
+
+/// What a recording is written as.
+enum class RecordingKind { numbered_png, mp4, webm };
+
 struct CaptureState {
     std::string folder = ".";
-    int frames = 60; ///< wanted of a numbered sequence; 0: until stopped
+    RecordingKind kind = RecordingKind::numbered_png;
+    int frames = 60; ///< wanted of a recording; 0: until stopped
     bool recording = false;
     int written = 0;
-    std::string pattern; ///< of the sequence: "…_%04d.png"
-    std::string last;    ///< what was written last
+    std::string pattern;        ///< of numbered frames: "…_%04d.png"; of a film its file
+    std::shared_ptr<Film> film; ///< while one is recorded
+    std::string last;           ///< what was written last
 
     std::string saved_shot;  ///< the shot file that was saved last,
     std::string saved_state; ///< and what it holds: another state makes it stale
@@ -80,6 +91,7 @@ struct WindowState {
     std::string left_tab = "Scene", upper_tab = "Graph", lower_tab = "Parameters", bottom_tab = "Nodes";
     std::string shot, graph; ///< of the last run
     std::vector<Bookmark> bookmarks;
+    float path_seconds = 2;              ///< between two bookmarks of a camera path
     float fly_speed = 1;                 ///< 1: the scene's diagonal in ten seconds
     std::set<std::string> closed_passes; ///< whose parameters are not shown
     bool coarse_while_moving = true;     ///< where frames are slow, fewer pixels are rendered while something moves

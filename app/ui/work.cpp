@@ -5,6 +5,7 @@
 #include "core/json_text.h"
 #include "core/problem.h"
 #include "core/text.h"
+#include "scene/loaded_space.h"
 
 #include <algorithm>
 #include <cmath>
@@ -124,16 +125,67 @@ Node* node_of_light(Scene& scene, size_t light) {
     return found == scene.nodes.end() ? nullptr : &*found;
 }
 
+json objects_json(const Shot& shot) {
+    json objects = json::array();
+    for (int index : shot.object_nodes) {
+        const Node& node = shot.scene.nodes[size_t(index)];
+        objects.push_back({{"name", node.name},
+                           {"translation", vector_json(node.translation)},
+                           {"rotation", {node.rotation.w, node.rotation.x, node.rotation.y, node.rotation.z}},
+                           {"scale", vector_json(node.scale)}});
+    }
+    return objects;
+}
+
+void set_objects(const json& objects, const Shot& shot, Scene& scene) {
+    if (objects.size() != shot.object_nodes.size()) throw Error("its objects are others");
+    for (size_t i = 0; i < objects.size(); ++i) {
+        Node& node = scene.nodes[size_t(shot.object_nodes[i])];
+        if (objects[i].at("name") != node.name) throw Error("its objects are others");
+        node.translation = vector_from<glm::dvec3>(objects[i].at("translation"));
+        const auto r = vector_from<glm::dvec4>(objects[i].at("rotation"));
+        node.rotation = glm::dquat(r.x, r.y, r.z, r.w);
+        node.scale = vector_from<glm::dvec3>(objects[i].at("scale"));
+        const bool flat = node.scale.x * node.scale.y * node.scale.z == 0;
+        if (flat || std::abs(glm::length(node.rotation) - 1) > 1e-6) throw Error("an object has no shape");
+    }
+    check_placement(scene, shot.time);
+}
+
+json path_json(const Path& path) {
+    json keys = json::array();
+    for (const PathKey& key : path.keys)
+        keys.push_back({{"t", key.t}, {"position", vector_json(key.position)}, {"target", vector_json(key.target)}});
+    return keys;
+}
+
+Path path_from(const json& from) {
+    Path path;
+    for (const json& key : from) {
+        path.keys.push_back({key.at("t").get<float>(), vector_from<glm::dvec3>(key.at("position")),
+                             vector_from<glm::dvec3>(key.at("target")), true});
+        if (path.keys.size() > 1 && !(path.keys.back().t > path.keys[path.keys.size() - 2].t))
+            throw Error("its camera's path goes back in time");
+    }
+    return path;
+}
+
+json camera_work(const Camera& camera) {
+    return {{"position", vector_json(camera.position)},
+            {"target", vector_json(camera.target)},
+            {"up", vector_json(camera.up)},
+            {"vfov", camera.vfov}};
+}
+
 json shot_work(Session& session, const SceneBaseline& opened) {
     Shot& shot = session.shot();
     json work;
-    if (session.camera_is_set()) {
-        const Camera camera = session.camera();
-        work["camera"] = {{"position", vector_json(camera.position)},
-                          {"target", vector_json(camera.target)},
-                          {"up", vector_json(camera.up)},
-                          {"vfov", camera.vfov}};
+    if (session.camera_is_set()) work["camera"] = camera_work(session.camera());
+    if (camera_path_edited(shot, opened) && !shot.camera_path.empty()) {
+        work["camera_path"] = path_json(shot.camera_path);
+        work["path_camera"] = camera_work(shot.camera);
     }
+    if (edited_objects(shot, opened) > 0) work["objects"] = objects_json(shot);
     if (edited_lights(shot.scene, opened) > 0) {
         work["lights"] = json::array();
         // Some came or went: those that they were are told, so that they fit that file alone.
@@ -168,6 +220,13 @@ void set_shot_work(Session& session, const json& work) {
     Scene scene = shot.scene;
     std::optional<Camera> camera;
     if (work.contains("camera")) camera = camera_from(work.at("camera"), session.camera());
+    std::optional<Path> path;
+    Camera path_camera = shot.camera;
+    if (work.contains("camera_path")) {
+        path = path_from(work.at("camera_path"));
+        path_camera = camera_from(work.at("path_camera"), shot.camera);
+    }
+    if (work.contains("objects")) set_objects(work.at("objects"), shot, scene);
     const json lights = work.value("lights", json::array()), materials = work.value("materials", json::array());
     if (work.contains("lights_of_file")) {
         if (work.at("lights_of_file") != names_of(scene.lights)) throw Error("its lights are others");
@@ -194,6 +253,10 @@ void set_shot_work(Session& session, const json& work) {
     shot.diffuse_only = diffuse_only;
     shot.normal_maps = normal_maps;
     shot.material_model = MaterialModel(known - k_material_models.begin());
+    if (path) {
+        shot.camera_path = std::move(*path);
+        shot.camera = path_camera;
+    }
     if (camera) session.set_camera(*camera, true);
     session.scene_edited();
 }
@@ -204,7 +267,9 @@ std::string describe_work(const Session& session, const SceneBaseline& opened, c
         if (number) parts.push_back(fmt::format("{} {}{}", number, what, number == 1 ? "" : "s"));
     };
     if (work.contains("camera")) parts.emplace_back("the camera");
+    if (work.contains("camera_path")) parts.emplace_back("the camera's path");
     count(edited_lights(session.shot().scene, opened), "light");
+    count(edited_objects(session.shot(), opened), "object");
     count(edited_materials(session.shot().scene, opened), "material");
     if (work.contains("environment")) parts.emplace_back("the environment");
     if (work.contains("diffuse_only") || work.contains("normal_maps") || work.contains("material_model"))

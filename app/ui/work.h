@@ -1,7 +1,7 @@
 #pragma once
-// What a person has changed and not saved: of each shot its camera, lights, materials and surroundings, of each graph
-// its values and switches. It outlives a switch to another shot or graph, the window, and a process that is killed
-// (ui_state_file.h).
+// What a person has changed and not saved: of each shot its camera and its path, lights, objects, materials and
+// surroundings, of each graph its values and switches. It outlives a switch to another shot or graph, the window, and a
+// process that is killed (ui_state_file.h).
 
 #include "app/ui/panel_context.h"
 

@@ -2,6 +2,7 @@
 #include "app/ui/live_comparison.h"
 
 #include "app/capture.h"
+#include "app/ui/captures.h"
 #include "app/ui/open.h"
 #include "app/ui/style.h"
 #include "app/ui/ui_state_file.h"
@@ -50,6 +51,10 @@ ViewerApp::ViewerApp(ViewOptions options) : options_(std::move(options)) {
 
 ViewerApp::~ViewerApp() {
     if (window_ && session_) keep_state();
+    if (session_ && ui_.window.capture.recording) { // a film of what was recorded so far
+        PanelContext panels = context();
+        attempt([&] { stop_recording(panels); });
+    }
     viewport_.release_gpu();
     ui_.comparison.reset();
     ui_.cones.reset();

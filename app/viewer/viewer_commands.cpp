@@ -1,4 +1,5 @@
 // What keys do.
+#include "app/ui/camera_path.h"
 #include "app/ui/captures.h"
 #include "app/ui/open.h"
 #include "app/ui/shot_writer.h"
@@ -85,9 +86,11 @@ void ViewerApp::handle_camera(KeyCommand command, const std::string& chord) {
     case KeyCommand::frame_scene:
         session_->set_camera(camera_of_whole_scene(*session_), true);
         break;
-    case KeyCommand::shot_camera:
-        session_->follow_shot_camera();
+    case KeyCommand::shot_camera: {
+        PanelContext panels = context();
+        go_to_shot_camera(panels);
         break;
+    }
     case KeyCommand::add_bookmark: {
         const std::string& shot = session_->options().shot;
         auto here = [&](const Bookmark& mark) { return mark.shot == shot; };
@@ -132,6 +135,7 @@ void ViewerApp::handle_files(KeyCommand command) {
         fit_picture();
         render();
     }
+    if (of_the_picture && session_->measure_moved_needs()) render();
     switch (command) {
     case KeyCommand::capture_png:
         capture_picture(panels, ".png");

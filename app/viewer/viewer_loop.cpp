@@ -130,6 +130,9 @@ void ViewerApp::handle_events() {
     // At rest: neither a drag nor a flight is written step by step.
     if (keep_due_ && !is_scripted() && !ImGui::IsAnyItemActive() && !viewport_.busy()) {
         keep_due_ = false;
+        attempt([&] {
+            if (session_->measure_moved_needs()) ui_.redraw();
+        });
         attempt([&] { keep_state(); });
     }
     // A reference that grows in the background, and the flicker between it and the picture, are seen without input.

@@ -234,6 +234,12 @@ LoadedSpace suitable_space(const Scene& scene) {
     return space;
 }
 
+glm::dvec3 place_in_file(const LoadedSpace& space, const glm::vec3& loaded) {
+    if (space != LoadedSpace{}) return space.to_file(loaded);
+    const auto shortest = [](float value) { return std::stod(fmt::format("{}", value)); };
+    return {shortest(loaded.x), shortest(loaded.y), shortest(loaded.z)};
+}
+
 void check_place(const glm::vec3& loaded, const std::string& what) {
     for (int axis = 0; axis < 3; ++axis)
         if (!(std::abs(loaded[axis]) <= k_farthest))

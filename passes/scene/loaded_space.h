@@ -18,6 +18,9 @@ void recentre_meshes(Scene& scene);
 /// that a stray one does not decide.
 LoadedSpace suitable_space(const Scene& scene);
 
+/// Where a loaded place lies in the file; in the fewest digits that are loaded as it, where the space is the file's.
+glm::dvec3 place_in_file(const LoadedSpace& space, const glm::vec3& loaded);
+
 /// Loaded coordinates beyond this are refused: squares of them, and boxes around them, must be floats.
 constexpr float k_farthest = 1e18f;
 

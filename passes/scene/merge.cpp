@@ -54,7 +54,7 @@ SceneMerger::Placed& SceneMerger::load(const std::filesystem::path& file) {
     return placed;
 }
 
-void SceneMerger::place(const std::filesystem::path& file, const Node& root) {
+int SceneMerger::place(const std::filesystem::path& file, const Node& root) {
     Placed& placed = load(file);
     int parent = int(into_.nodes.size());
     into_.nodes.push_back(root);
@@ -72,6 +72,7 @@ void SceneMerger::place(const std::filesystem::path& file, const Node& root) {
             channel.node += first_node;
         into_.animations.push_back(std::move(animation));
     }
+    return parent;
 }
 
 void drop_unused_textures(Scene& scene) {

@@ -14,8 +14,9 @@ class SceneMerger {
     explicit SceneMerger(Scene& into) : into_(into) {}
 
     /// Adds the nodes of the glTF file below `root`, which becomes their parent; cameras of the file are dropped.
-    /// Throws Error as load_gltf does, and when the whole grows beyond what 32-bit indices reach.
-    void place(const std::filesystem::path& file, const Node& root);
+    /// Returns the index of that parent. Throws Error as load_gltf does, and when the whole grows beyond what 32-bit
+    /// indices reach.
+    int place(const std::filesystem::path& file, const Node& root);
 
   private:
     struct Placed {

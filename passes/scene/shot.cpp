@@ -89,7 +89,7 @@ class ShotReader {
             Node node = read_object((*objects)[i], where, errors_, name);
             if (errors_.messages().size() > before && name.empty()) continue;
             try {
-                merger.place(find_scene(name, base_), node);
+                shot_.object_nodes.push_back(merger.place(find_scene(name, base_), node));
             } catch (const Error& error) {
                 errors_.add(where + ".scene: " + error.what());
             }

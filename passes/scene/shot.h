@@ -23,6 +23,7 @@ struct Shot {
     Camera camera;
     Path camera_path;              ///< in the file's coordinates; empty unless the shot has one
     std::vector<Path> light_paths; ///< per Scene::lights entry, to look at; Node::path is what moves the light
+    std::vector<int> object_nodes; ///< per entry of the file's `objects`: the node that places it, which has no parent
     int width = 1280;
     int height = 720;
     float time = 0; ///< seconds of frame 0

@@ -3,6 +3,7 @@
 #include "scene/find_scene.h"
 #include "scene/keyframes.h"
 #include "scene/shot_parts.h"
+#include "scene/turn.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -88,18 +89,14 @@ Environment read_environment(const json& value, const std::filesystem::path& bas
 static std::optional<glm::dquat> read_rotation(JsonObject& object) {
     const json* value = object.find("rotation");
     if (!value) return std::nullopt;
-    if (auto degrees = json_vector(*value)) {
-        glm::dvec3 angle = glm::radians(*degrees);
-        return glm::angleAxis(angle.z, glm::dvec3(0, 0, 1)) * glm::angleAxis(angle.y, glm::dvec3(0, 1, 0)) *
-               glm::angleAxis(angle.x, glm::dvec3(1, 0, 0));
-    }
+    if (auto degrees = json_vector(*value)) return rotation_of(*degrees);
     bool four = value->is_array() && value->size() == 4;
     for (const json& item : *value)
         four = four && item.is_number() && std::isfinite(item.get<float>());
     if (four) {
         glm::dquat q((*value)[3].get<double>(), (*value)[0].get<double>(), (*value)[1].get<double>(),
                      (*value)[2].get<double>());
-        if (glm::length(q) > 1e-6) return glm::normalize(q);
+        if (glm::length(q) > 1e-6) return of_length_1(q);
     }
     object.errors().add(object.at("rotation") + " must be 3 angles in degrees or a quaternion x, y, z, w, but is " +
                         json_shown(*value));

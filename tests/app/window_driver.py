@@ -16,7 +16,7 @@ from program import PROGRAM, ProgramTest, png_pixel
 SIZE = (1366, 768)  # a laptop's screen
 PICTURE = (96, 64)
 NO_PASSES = {"tab", "scene", "camera", "compare", "capture", "status", "parameters", "stability", "palette", "nodes", "views", "lights",
-             "light", "snapshots", "time", "sweep", "gizmo", "viewer", "banner", "graph", "resources"}  # parts of the window
+             "light", "snapshots", "time", "sweep", "gizmo", "object", "viewer", "banner", "graph", "resources"}  # parts of the window
 TOOLS = {"Xvfb": "xvfb", "xdotool": "xdotool", "xwininfo": "x11-utils"}
 
 

@@ -197,5 +197,13 @@ TEST_F(LoadedSpaceTest, WhatFloatsDoNotReachIsRefused) {
     EXPECT_NEAR(large.camera.position.z * large.scene.space.unit / 1e30, 1, 1e-6);
 }
 
+TEST(LoadedSpace, PlacesInTheFileHaveFewDigitsAndAreLoadedAsTheyWere) {
+    const glm::vec3 loaded(2.78f, 0.1f, -8);
+    EXPECT_EQ(place_in_file({}, loaded), glm::dvec3(2.78, 0.1, -8));
+    EXPECT_EQ(LoadedSpace{}.to_loaded(place_in_file({}, loaded)), loaded);
+    const LoadedSpace far{{1e6, 0, 0}, 0.25};
+    EXPECT_EQ(place_in_file(far, loaded), far.to_file(loaded));
+}
+
 } // namespace
 } // namespace bounce::testing
