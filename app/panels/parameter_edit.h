@@ -21,8 +21,8 @@ ParameterText text_of(const std::string& id, const Parameter& parameter);
 ParameterText home_of(const GraphModel& model, const std::string& id, const Parameter& parameter);
 
 /// Sets values and asks for a new frame. What is refused is told once by ui.say, and the value before stands: one out
-/// of range, or all of them when the graph has no plan with them. Returns success. Wants a current context. While a frame is
-/// rendered, what shapes the plan waits for its end (ui.waiting_values) and counts as set.
+/// of range, or all of them when the graph has no plan with them. Returns success. Wants a current context. While a
+/// frame is rendered, what shapes the plan waits for its end (ui.waiting_values) and counts as set.
 bool apply(Session& session, UiState& ui, const std::vector<ParameterText>& values);
 
 /// Whether the graph is planned or a shader compiled again when it changes: sizes, what is compiled in, what other

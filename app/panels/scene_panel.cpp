@@ -4,8 +4,10 @@
 #include "app/panels/object_rows.h"
 #include "app/panels/panel.h"
 #include "app/ui/edit.h"
+#include "app/ui/keys.h"
 #include "app/ui/marks.h"
 #include "app/ui/open.h"
+#include "app/ui/open_dialog.h"
 #include "app/ui/typed_number.h"
 #include "app/ui/widget_rects.h"
 #include "core/text.h"
@@ -36,13 +38,17 @@ void draw_shots(PanelContext& context) {
 
 void draw_path_entry(PanelContext& context) {
     static std::string path;
-    ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 3.4f);
+    ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 6.2f);
     bool enter = ImGui::InputTextWithHint("##path", "path of a .gltf, .glb, shot or graph", &path,
                                           ImGuiInputTextFlags_EnterReturnsTrue);
     note_widget("scene.path");
     ImGui::SameLine();
-    bool pressed = ImGui::Button("open", {-1, 0});
+    bool pressed = ImGui::Button("open", {ImGui::GetFontSize() * 3, 0});
     help("Files may also be dropped on the window.");
+    ImGui::SameLine();
+    if (ImGui::Button("…", {-1, 0})) ask_for_open_dialog(context);
+    note_widget("scene.browse");
+    help(("Folders and what was opened last (" + chord_of(KeyCommand::open_file) + ").").c_str());
     if ((enter || pressed) && !path.empty()) ask_for_file(context, path);
 }
 

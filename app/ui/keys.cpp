@@ -25,6 +25,7 @@ const std::vector<KeyBinding>& key_bindings() {
         {"Time", {".", "Right"}, "one frame on", step},
         {"Time", {"0"}, "back to the first frame", first_frame},
         {"Time", {"C"}, "render continuously, also when nothing changes", render_always},
+        {"Files", {"Ctrl+O"}, "open a file of a folder, or one that was opened last", open_file},
         {"Files", {"Ctrl+S", "Ctrl+E"}, "save what is seen as a shot", save_shot},
         {"Files", {"F12"}, "save the picture as PNG", capture_png},
         {"Files", {"Shift+F12"}, "save its linear parts as EXR", capture_exr},

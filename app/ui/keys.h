@@ -31,6 +31,7 @@ enum class KeyCommand {
     shot_camera,
     add_bookmark,
     bookmark, ///< 1 … 9
+    open_file,
     capture_png,
     capture_exr,
     record,

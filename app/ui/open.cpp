@@ -1,6 +1,7 @@
 #include "app/ui/open.h"
 
 #include "app/ui/captures.h"
+#include "app/ui/open_dialog.h"
 #include "app/ui/shot_writer.h"
 #include "app/ui/texture_view.h"
 #include "app/ui/work.h"
@@ -136,6 +137,7 @@ static void ask_for_sky(PanelContext& context, const std::string& map) {
 
 void ask_for_file(PanelContext& context, const std::string& path) {
     if (fs::path(path).extension() == ".hdr") return ask_for_sky(context, path);
+    note_recent_file(context.ui.window, path);
     if (scene_format_of(path)) return ask_for_shot(context, path);
     if (fs::path(path).extension() != ".json") {
         return context.ui.say("'" + path + "' cannot be opened: expected a scene (" + scene_extensions() +

@@ -117,6 +117,7 @@ WindowState state_from(const json& root) {
         for (const json& value : root.at("bookmarks"))
             state.bookmarks.push_back(bookmark_from(value));
     }
+    get(root, "recent_files", state.recent_files);
     if (root.contains("work")) {
         get_work(root.at("work"), "shots", state.work.shots);
         get_work(root.at("work"), "graphs", state.work.graphs);
@@ -180,6 +181,7 @@ std::string window_state_text(const WindowState& state) {
                                      {"up", vector_json(mark.camera.up)},
                                      {"vfov", mark.camera.vfov}});
     }
+    root["recent_files"] = state.recent_files;
     root["work"] = {{"shots", work_json(state.work.shots)}, {"graphs", work_json(state.work.graphs)}};
     // Names of files may be no UTF-8: what cannot be written as such is replaced rather than lost with all the rest.
     return json_dump(root, 1) + "\n";

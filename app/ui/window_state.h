@@ -91,10 +91,11 @@ struct WindowState {
     std::string left_tab = "Scene", upper_tab = "Graph", lower_tab = "Parameters", bottom_tab = "Nodes";
     std::string shot, graph; ///< of the last run
     std::vector<Bookmark> bookmarks;
-    float path_seconds = 2;              ///< between two bookmarks of a camera path
-    float fly_speed = 1;                 ///< 1: the scene's diagonal in ten seconds
-    std::set<std::string> closed_passes; ///< whose parameters are not shown
-    bool coarse_while_moving = true;     ///< where frames are slow, fewer pixels are rendered while something moves
+    std::vector<std::string> recent_files; ///< that were opened by their path, the newest first (open_dialog.h)
+    float path_seconds = 2;                ///< between two bookmarks of a camera path
+    float fly_speed = 1;                   ///< 1: the scene's diagonal in ten seconds
+    std::set<std::string> closed_passes;   ///< whose parameters are not shown
+    bool coarse_while_moving = true;       ///< where frames are slow, fewer pixels are rendered while something moves
     CaptureState capture;
     UnsavedWork work;
 

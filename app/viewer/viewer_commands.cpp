@@ -2,6 +2,7 @@
 #include "app/ui/camera_path.h"
 #include "app/ui/captures.h"
 #include "app/ui/open.h"
+#include "app/ui/open_dialog.h"
 #include "app/ui/shot_writer.h"
 #include "app/ui/snapshots.h"
 #include "app/viewer/viewer_app.h"
@@ -22,6 +23,7 @@ static bool is_of_the_window(KeyCommand command) {
     case KeyCommand::show_left:
     case KeyCommand::show_right:
     case KeyCommand::swap_columns:
+    case KeyCommand::open_file:
     case KeyCommand::quit:
     case KeyCommand::play:
     case KeyCommand::render_always:
@@ -151,6 +153,9 @@ void ViewerApp::handle_files(KeyCommand command) {
         break;
     case KeyCommand::save_shot:
         save_shot(panels);
+        break;
+    case KeyCommand::open_file:
+        ask_for_open_dialog(panels);
         break;
     case KeyCommand::reload_shot:
         ask_for_shot_again(panels);

@@ -5,6 +5,7 @@
 #include "app/ui/edit.h"
 #include "app/ui/imgui_stack.h"
 #include "app/ui/light_banner.h"
+#include "app/ui/open_dialog.h"
 #include "app/ui/status_bar.h"
 #include "app/ui/style.h"
 #include "app/ui/timeline.h"
@@ -142,6 +143,7 @@ void ViewerApp::draw(bool shown) {
         draw_keys_window(panels);
         palette_.draw(panels);
         draw_discard_prompt(panels);
+        draw_open_dialog(panels);
         // What was typed into a row that is not drawn any more (another tab, a filter) was left, too.
         if (!ui_.edit.name.empty() && !ImGui::IsAnyItemActive() && !ui_.mid_frame) finish_edit(panels);
         if (shown) end_widget_frame(panels);

@@ -25,7 +25,10 @@ def write_png(path, rows):
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     width, height = len(rows[0]), len(rows)
-    data = b"".join(b"\0" + b"".join(pixel[2::-1] for pixel in row) for row in rows)  # the screen has blue first
+    lines = [b"".join(pixel[2::-1] for pixel in row) for row in rows]  # the screen has blue first
+    # Each byte less the one above it: flat areas and columns become zeros.
+    above = [bytes(3 * width), *lines[:-1]]
+    data = b"".join(b"\2" + bytes((a - b) & 255 for a, b in zip(line, over)) for line, over in zip(lines, above))
     path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
                      chunk(b"IDAT", zlib.compress(data, 9)) + chunk(b"IEND", b""))
 
@@ -44,18 +47,19 @@ def take(program, name, folder):
         window = subprocess.Popen([program, "view", "atrium", "--graph", "lrsm_tuned", "--window", "%dx%d" % size, "--dump-ui", str(dump)],
                                   env=environment, cwd=folder)
         try:
-            end = time.monotonic() + 1800
+            end, still = time.monotonic() + 1800, 0
             while time.monotonic() < end:  # until all that is shown is measured
                 if window.poll() is not None:
                     sys.exit(f"the program ended with {window.returncode}")
                 try:
                     told = json.loads(dump.read_text())
-                    if told["times"]["current"] and told["rendered"] >= 2 and not told["mid_frame"]:
+                    rests = told["times"]["current"] and told["rendered"] >= 2 and not told["mid_frame"]
+                    still = still + 1 if rests else 0
+                    if still > 6:
                         break
                 except (FileNotFoundError, json.JSONDecodeError):
                     pass
                 time.sleep(0.5)
-            time.sleep(2)
             write_png(ROOT / f"assets/readme/window_{name}.png", display.pixels(0, 0, *size))
         finally:
             window.terminate()

@@ -59,6 +59,36 @@ class WindowWork(WindowTest):
         self.input("key", "Return")
         self.wait(lambda state: state["lights"] != left["lights"] and state["camera"] == camera, "the shot as it is in its file")
 
+    def test_files_are_opened_by_clicks(self):
+        """Through folders, by a part of the name; what was opened is in the list of the next run."""
+        folder = self.out / "mine" / "deeper"
+        folder.mkdir(parents=True)
+        for path in (self.out / "first.json", folder / "other.json"):
+            path.write_text(self.shot.read_text())
+        self.open(self.out / "first.json", *SMALL, "--size", "%dx%d" % PICTURE)
+        self.input("key", "ctrl+o")
+        self.click("open.entry.mine/")
+        self.click("open.entry.deeper/")
+        self.wait(lambda state: "open.entry.other.json" in state["widgets"], "the folder's files")
+        self.type("open.filter", "nothing")
+        self.wait(lambda state: "open.entry.other.json" not in state["widgets"], "no file of that name")
+        for _ in "nothing":
+            self.input("key", "BackSpace")
+        self.click("open.entry.other.json")
+        self.wait(lambda state: state["shot"] == str(folder / "other.json") and state["notice"].startswith("opened"), "the file")
+        self.assertNotIn("open.filter", self.state()["widgets"])
+        self.input("key", "ctrl+o")
+        self.wait(lambda state: "open.filter" in state["widgets"], "the dialog again, where it was left")
+        self.assertIn("open.entry.other.json", self.state()["widgets"])
+        self.input("key", "Escape")
+        self.wait(lambda state: "open.filter" not in state["widgets"], "the end of the dialog")
+        self.input("key", "ctrl+q")
+        self.wait_for_exit()
+        self.open(self.out / "first.json", *SMALL, "--size", "%dx%d" % PICTURE)
+        self.input("key", "ctrl+o")
+        self.click("open.recent.other.json")
+        self.wait(lambda state: state["shot"] == str(folder / "other.json") and state["notice"].startswith("opened"), "what was opened last")
+
     def test_escape_closes_what_is_open_and_nothing_else(self):
         self.open(self.shot, *SMALL, "--size", "%dx%d" % PICTURE)
         self.click("graph.pass.direct")
