@@ -122,13 +122,16 @@ Camera Session::camera() const {
 
 void Session::set_camera(const Camera& camera, bool cut) {
     camera_ = camera;
-    if (cut) graph_->reset_history();
-    if (cut) has_last_view_ = false;
+    if (!cut) return;
+    graph_->reset_history();
+    has_last_view_ = false;
+    ++camera_cuts_;
 }
 
 void Session::follow_shot_camera() {
     camera_.reset();
     has_last_view_ = false;
+    ++camera_cuts_;
     graph_->reset_history();
 }
 
@@ -139,7 +142,8 @@ void Session::resize(glm::ivec2 size) {
 }
 
 bool Session::render(bool whole, const BetweenPasses& between) {
-    const int frame = frame_; // another may be asked for between two passes
+    const int frame = frame_; // another may be asked for between two passes, and another camera
+    const uint64_t cuts = camera_cuts_;
     state_ = evaluate_shot(*shot_, frame);
     if (scene_dirty_) {
         facts_ = shot_facts(*shot_);
@@ -176,7 +180,8 @@ bool Session::render(bool whole, const BetweenPasses& between) {
     c.normal_maps = shot_->normal_maps ? 1 : 0;
 
     FrameInputs inputs{gpu_scene_.get(), &facts_, c};
-    if (!graph_->execute(inputs, between)) return false;
+    is_whole_ = graph_->execute(inputs, between);
+    if (!is_whole_) return false;
     constexpr int k_max_tries = 8; // each grows to what the one before had wanted
     for (int i = 0; whole && i < k_max_tries && graph_->needs_larger_buffers(); ++i) {
         graph_->prepare(facts_, size_);
@@ -188,7 +193,7 @@ bool Session::render(bool whole, const BetweenPasses& between) {
                                       pass.empty() ? "" : ", in pass '" + pass + "'"));
     }
     last_view_projection_ = c.view_projection;
-    has_last_view_ = true;
+    has_last_view_ = cuts == camera_cuts_;
     rendered_frame_ = frame;
     return true;
 }

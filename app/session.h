@@ -83,6 +83,10 @@ class Session {
     /// frame later).
     /// With `between`, see Graph::execute(). Returns whether the frame was rendered to its end.
     bool render(bool whole = false, const BetweenPasses& between = {});
+    /// Renders the frame that was left between two passes to its end: for who keeps a picture of it.
+    void finish_frame() {
+        if (!is_whole_) render();
+    }
     /// Polls the watched files of graph and shaders. Returns true when something was reloaded.
     bool poll_files() { return graph_->poll_files(); }
     const SceneState& scene_state() const { return state_.scene; }
@@ -129,6 +133,8 @@ class Session {
     glm::ivec2 size_{1};
     int frame_ = 0;
     int rendered_frame_ = -1;
+    bool is_whole_ = true; ///< the last frame was rendered to its end
+    uint64_t camera_cuts_ = 0;
     bool scene_dirty_ = true;
     uint64_t edits_ = 0;
 

@@ -118,7 +118,7 @@ int render(const RenderArguments& arguments) {
     std::optional<InterruptWatch> interrupts;
     if (film_wanted) {
         interrupts.emplace();
-        film.emplace(arguments.output, session.size(), session.shot().fps);
+        check_film_path(arguments.output);
     }
     Progress progress("rendering");
     for (int frame = 0; frame < arguments.frames; ++frame) {
@@ -127,8 +127,11 @@ int render(const RenderArguments& arguments) {
         session.render(true);
         if (!arguments.watch) refuse_broken(session);
         if (every_frame) write_picture(session, numbered(arguments.output, frame), arguments.resource);
-        if (film) {
-            film->add(display_picture(session, arguments.resource));
+        if (film_wanted) {
+            const Image8 picture = display_picture(session, arguments.resource);
+            // A texture may have a size of its own.
+            if (!film) film.emplace(arguments.output, glm::ivec2(picture.width, picture.height), session.shot().fps);
+            film->add(picture);
             interrupts->check();
         }
         if (errors) errors->add(session, frame + 1, frame + 1 == arguments.frames);

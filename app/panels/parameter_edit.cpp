@@ -74,12 +74,8 @@ static std::vector<ParameterText> set_all(Session& session, const std::vector<Pa
 }
 
 bool apply(Session& session, UiState& ui, const std::vector<ParameterText>& values) {
-    const GraphModel& model = session.graph().model();
-    const bool shapes = std::any_of(values.begin(), values.end(), [&](const ParameterText& value) {
-        const Parameter* parameter = model.find_parameter(value.name);
-        return parameter && shapes_plan(session.graph(), value.name, *parameter);
-    });
-    if (shapes && ui.mid_frame) {
+    if (ui.mid_frame) {
+        ui.redraw();
         for (const ParameterText& value : values)
             ui.waiting_values[value.name] = value.text;
         ui.change_graph([&session, &ui, values] {
@@ -88,6 +84,11 @@ bool apply(Session& session, UiState& ui, const std::vector<ParameterText>& valu
         });
         return true;
     }
+    const GraphModel& model = session.graph().model();
+    const bool shapes = std::any_of(values.begin(), values.end(), [&](const ParameterText& value) {
+        const Parameter* parameter = model.find_parameter(value.name);
+        return parameter && shapes_plan(session.graph(), value.name, *parameter);
+    });
     ErrorList errors, ignored;
     const std::vector<ParameterText> before = set_all(session, values, errors);
     if (std::string why = shapes ? plan_refusal(session) : ""; !why.empty()) {

@@ -22,7 +22,7 @@ ParameterText home_of(const GraphModel& model, const std::string& id, const Para
 
 /// Sets values and asks for a new frame. What is refused is told once by ui.say, and the value before stands: one out
 /// of range, or all of them when the graph has no plan with them. Returns success. Wants a current context. While a
-/// frame is rendered, what shapes the plan waits for its end (ui.waiting_values) and counts as set.
+/// frame is rendered, they wait for its end (ui.waiting_values) and count as set.
 bool apply(Session& session, UiState& ui, const std::vector<ParameterText>& values);
 
 /// Whether the graph is planned or a shader compiled again when it changes: sizes, what is compiled in, what other

@@ -17,7 +17,7 @@ void switch_pass(PanelContext& context, const std::string& id, bool on) {
     UiState& ui = context.ui;
     std::vector<std::string> ids{id};
     if (on) ids = session.graph().model().off_before(id);
-    set_enabled(session, ui, ids, on);
+    set_enabled(session, ui, ids, on); // a frame that is being rendered goes by its plan, and does not ask for it
     ui.change_graph([&session, &ui, &undo = context.undo, ids, id, on] {
         if (const std::string why = plan_refusal(session); !why.empty()) {
             set_enabled(session, ui, ids, !on);

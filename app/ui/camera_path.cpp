@@ -94,6 +94,7 @@ void make_camera_path(PanelContext& context) {
     after.camera.vfov = cameras.front().vfov;
     session.follow_shot_camera();
     session.set_frame(0);
+    if (context.ui.note_camera) context.ui.note_camera(); // a step of its own, below that of the path
     change_path(context, "camera path", after);
     const float seconds = window.path_seconds * float(marks.size() - 1);
     window.capture.frames = int(std::clamp(std::round(seconds * shot.fps), 1.0f, 999999.0f)) + 1;
@@ -108,6 +109,7 @@ void go_to_shot_camera(PanelContext& context) {
     session.follow_shot_camera();
     context.ui.redraw();
     if (!camera_path_edited(session.shot(), opened)) return;
+    if (context.ui.note_camera) context.ui.note_camera();
     change_path(context, "drop the camera path", {opened.camera_path, opened.camera});
     context.ui.say("the shot's own camera; " + chord_of(KeyCommand::undo) + " brings the path back");
 }

@@ -34,6 +34,7 @@ static void make_folder(const std::string& folder) {
 void capture_picture(PanelContext& context, const std::string& extension) {
     CaptureState& capture = context.ui.window.capture;
     make_folder(capture.folder);
+    context.session.finish_frame();
     fs::path path = new_file(capture.folder, capture_stem(context.session), extension);
     write_picture(context.session, path);
     capture.last = fs::absolute(path).lexically_normal().string();

@@ -24,6 +24,8 @@ void draw_discard_prompt(PanelContext& context) {
         return;
     }
     show_text("Your edits of " + context.session.shot().name + " are not saved: " + edits + ".");
+    const std::string lost = unsaved_edits(context.session, context.ui.window.opened);
+    if (!lost.empty()) show_text("They cannot all be saved: " + lost + ".", k_warning_colour);
     const bool save = ImGui::Button("save as a shot, then read again");
     note_widget("discard.save");
     ImGui::SameLine();

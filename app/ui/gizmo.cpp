@@ -194,6 +194,7 @@ bool Gizmo::draw(PanelContext& context, const Area& picture, bool hovered, bool 
     if (!target) return false;
     const Shape shape(context.session, picture, *target);
     if (shape.view.depth(shape.middle) < 1e-4f) return false;
+    if (held_ != k_none && !shape.there[size_t(held_)]) held_ = k_none; // undo chose another light
     const ImGuiIO& io = ImGui::GetIO();
     const glm::vec2 mouse(io.MousePos.x, io.MousePos.y);
     const int under = hovered ? handle_under(shape, *target, mouse) : k_none;

@@ -52,6 +52,7 @@ void change_lights(PanelContext& context, const std::string& what, const std::fu
         session.shot().scene.lights = value.lights;
         session.shot().scene.nodes = value.nodes;
         ui.chosen_light = value.chosen;
+        if (value.chosen >= 0) ui.chosen_object = -1;
         session.scene_edited();
         ui.redraw();
     };

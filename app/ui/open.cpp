@@ -136,9 +136,11 @@ static void ask_for_sky(PanelContext& context, const std::string& map) {
 }
 
 void ask_for_file(PanelContext& context, const std::string& path) {
-    if (fs::path(path).extension() == ".hdr") return ask_for_sky(context, path);
-    note_recent_file(context.ui.window, path);
-    if (scene_format_of(path)) return ask_for_shot(context, path);
+    const bool sky = fs::path(path).extension() == ".hdr";
+    if (sky || scene_format_of(path)) {
+        note_recent_file(context.ui.window, path);
+        return sky ? ask_for_sky(context, path) : ask_for_shot(context, path);
+    }
     if (fs::path(path).extension() != ".json") {
         return context.ui.say("'" + path + "' cannot be opened: expected a scene (" + scene_extensions() +
                                   "), a shot or graph (.json), or a sky (.hdr)",
@@ -146,8 +148,11 @@ void ask_for_file(PanelContext& context, const std::string& path) {
     }
     try {
         auto root = read_json_file(path);
-        if (root.is_object() && root.contains("passes")) return ask_for_graph(context, path);
-        if (root.is_object() && root.contains("scene")) return ask_for_shot(context, path);
+        const bool graph = root.is_object() && root.contains("passes");
+        if (graph || (root.is_object() && root.contains("scene"))) {
+            note_recent_file(context.ui.window, path);
+            return graph ? ask_for_graph(context, path) : ask_for_shot(context, path);
+        }
         context.ui.say("'" + path + "' is neither a shot (it has no 'scene') nor a graph (it has no 'passes')", true);
     } catch (const std::exception& error) {
         context.ui.say("'" + path + "': " + error.what(), true);

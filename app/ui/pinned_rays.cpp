@@ -99,6 +99,7 @@ void draw_pin_buttons(PanelContext& context, const std::string& resource) {
         ImGui::SameLine();
         if (ImGui::Button("pin rays")) {
             ui.window.ask([&session = context.session, &ui, resource] {
+                session.finish_frame();
                 auto rays = recorded_rays(session.graph(), resource, session.constants().scene_diagonal);
                 if (!rays) return ui.say("there is no surface at the pixel: no rays to pin", true);
                 if (!ui.pinned_rays) ui.pinned_rays = std::make_shared<PinnedRayList>();

@@ -274,8 +274,11 @@ bool differs_from_shot(const Session& session, const SceneBaseline& opened) {
 
 std::string unsaved_edits(const Session& session, const SceneBaseline& opened) {
     const size_t edited = edited_materials(session.shot().scene, opened);
-    if (!edited) return {};
-    return fmt::format("{} edited material{}: shot files hold none", edited, edited == 1 ? "" : "s");
+    std::string text;
+    if (edited) text = fmt::format("{} edited material{}: shot files hold none", edited, edited == 1 ? "" : "s");
+    if (session.camera_is_set() && camera_path_edited(session.shot(), opened))
+        text += std::string(text.empty() ? "" : "; ") + "the camera path: the camera was moved away from it";
+    return text;
 }
 
 /// What would be written for `folder`, or empty where that fails.

@@ -90,6 +90,7 @@ void Snapshots::release_gpu() {
 }
 
 void take_snapshot(PanelContext& context) {
+    context.session.finish_frame();
     const Session& session = context.session;
     if (!context.ui.snapshots) context.ui.snapshots = std::make_shared<Snapshots>();
     Snapshots& snapshots = *context.ui.snapshots;

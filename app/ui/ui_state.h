@@ -87,6 +87,8 @@ struct UiState {
     std::string notice;                 ///< one line for the status bar
     bool notice_is_error = false;
 
+    /// What the camera has done since it rested becomes a step of undo now; empty where there is no window.
+    std::function<void()> note_camera;
     /// Makes the context and all that is on the GPU again, between two frames; empty where there is no window.
     std::function<void()> make_gpu_again;
 

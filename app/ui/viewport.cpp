@@ -30,7 +30,7 @@ const GpuTexture* Viewport::texture_to_show(PanelContext& context) {
     if (context.ui.mid_frame && plain && pair_) return pair_;
     pair_ = nullptr;
     caption_.clear();
-    if (context.ui.comparison && plain) {
+    if (context.ui.comparison && plain && !context.ui.mid_frame) {
         try {
             const double now = ImGui::GetTime();
             if (const GpuTexture* pair = context.ui.comparison->picture(context.session, now)) {

@@ -53,7 +53,7 @@ class ViewerApp {
     float motion_share(double now);
     void follow_camera(double now);
     void note_camera();
-    void render();
+    bool render();
     bool is_slow() const;
     void tell_problems();
     void recover_from_reset();
@@ -70,7 +70,7 @@ class ViewerApp {
 
     // viewer_slow_frame.cpp: the panels answer while a frame takes its time
     BetweenPasses between_passes();
-    bool answer(size_t passes_done);
+    bool answer(float done);
     void finish_slow_frame();
 
     // viewer_draw.cpp
@@ -110,6 +110,7 @@ class ViewerApp {
     float whole_ms_ = 0;                        ///< of the last frame at the whole size in which nothing was planned
     double moved_at_ = -1;                      ///< when something moved last
     double frame_began_ = 0, panels_drawn_ = 0; ///< of the frame that is being rendered
+    int frame_redraws_ = 0; ///< UiState::redraw_frames when it began: more are of something that changed since
 
     std::optional<Camera> rested_camera_; ///< that undo goes back to; empty: the shot's
     std::string rested_shot_;             ///< of which it is

@@ -74,7 +74,7 @@ bool ViewerApp::render_frame() {
     if (std::exchange(measuring_, false)) rebuild = int(Rebuild::every_frame);
     BetweenPasses between;
     if (const BetweenPasses answer = between_passes()) {
-        between = [&, answer](size_t done) {
+        between = [&, answer](float done) {
             rebuild = chosen; // the graph asks for it when a frame begins; the panels show what a person chose
             return answer(done);
         };

@@ -7,6 +7,7 @@
 #include "app/ui/snapshots.h"
 #include "app/ui/style.h"
 #include "app/ui/timeline.h"
+#include "app/viewer/clock.h"
 #include "app/viewer/viewer_app.h"
 #include "core/log.h"
 #include "core/problem.h"
@@ -22,11 +23,6 @@
 namespace bounce {
 
 namespace {
-
-double seconds_now() {
-    using namespace std::chrono;
-    return duration<double>(steady_clock::now().time_since_epoch()).count();
-}
 
 constexpr double k_poll_interval = 0.2; ///< of watched files
 constexpr double k_motion_rest = 0.3;   ///< after which the whole picture is rendered again
@@ -48,6 +44,7 @@ void ViewerApp::run() {
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
     ui_.make_gpu_again = [this] { make_gpu_again(); };
+    ui_.note_camera = [this] { note_camera(); };
     ui_.redraw();
     while (!window_->should_close() && !asked_to_quit && !finished()) {
         wait();
@@ -189,10 +186,10 @@ bool ViewerApp::time_to_advance() {
 /// How much of the picture's width and height is rendered: where a frame at the whole size is slow, less while a person
 /// moves something, so that the picture follows; the whole again when it has rested for a while.
 float ViewerApp::motion_share(double now) {
-    constexpr float k_slow = 100, k_wanted = 50; // milliseconds
+    constexpr float k_wanted = 50; // milliseconds
     const bool moving = viewport_.busy() || (ImGui::IsAnyItemActive() && ui_.redraw_frames > 0);
     const bool wanted = ui_.window.coarse_while_moving && ui_.window.sizing.fit && !ui_.window.capture.recording &&
-                        !is_scripted() && whole_ms_ > k_slow;
+                        !is_scripted() && whole_ms_ > k_slow_frame_ms;
     if (moving) moved_at_ = now;
     if (!wanted || now - moved_at_ > k_motion_rest) return 1;
     if (motion_share_ < 1) return motion_share_; // one size for a whole motion
@@ -232,6 +229,7 @@ void ViewerApp::fit_picture() {
     ui_.redraw();
 }
 
+/// Returns whether a frame was rendered to its end.
 bool ViewerApp::render_if_wanted() {
     if (window_->framebuffer_size().x > 0) fit_picture();
     bool advance = time_to_advance();
@@ -240,25 +238,26 @@ bool ViewerApp::render_if_wanted() {
     if (!wanted) return false;
     if (advance) session_->advance();
     ui_.redraw_frames = std::max(ui_.redraw_frames - 1, 0);
-    render();
-    return true;
+    return render();
 }
 
-void ViewerApp::render() {
+bool ViewerApp::render() {
     follow_settings(seconds_now());
-    if (!render_frame()) return ui_.redraw();
+    if (!render_frame()) {
+        ui_.redraw();
+        return false;
+    }
     follow_plan(seconds_now());
     ++rendered_;
     tell_problems();
-    if (!ui_.window.capture.recording) return;
     PanelContext panels = context();
-    attempt([&] { record_frame(panels); });
+    if (ui_.window.capture.recording) attempt([&] { record_frame(panels); });
+    return true;
 }
 
 /// Of the last frame.
 bool ViewerApp::is_slow() const {
-    constexpr float k_slow_frame = 100; // milliseconds
-    return !ui_.frame_times.empty() && ui_.frame_times.back().ms > k_slow_frame;
+    return !ui_.frame_times.empty() && ui_.frame_times.back().ms > k_slow_frame_ms;
 }
 
 /// Says once when shaders or the graph break, and when they are whole again.

@@ -37,12 +37,28 @@ bool Graph::execute(const FrameInputs& inputs, const BetweenPasses& between) {
     invalidation_.begin_frame(*model_, plan_, allocations_, inputs, all);
     for (int resource : invalidation_.voids())
         allocations_.reset(plan_, resource);
+    failed_.clear();
+    const auto steps_of = [&](size_t i) {
+        return invalidation_.runs(i) ? std::max(plan_.passes[i].repeat_to - plan_.passes[i].repeat_from, 1) : 0;
+    };
+    int done = 0, all_steps = 0;
+    for (size_t i = 0; i < plan_.passes.size(); ++i)
+        all_steps += steps_of(i);
+    const auto goes_on = [&](int steps) {
+        done += steps;
+        return !between || steps == 0 || done >= all_steps || between(float(done) / float(all_steps));
+    };
     for (size_t i = 0; i < plan_.passes.size();) {
         size_t last = i;
         const std::string& loop = plan_.passes[i].loop;
         while (!loop.empty() && last + 1 < plan_.passes.size() && plan_.passes[last + 1].loop == loop)
             ++last;
-        if (!run_loop(i, last, between)) {
+        // One pass with all its steps, or the passes of a loop step by step.
+        const bool cut = !loop.empty() || (between && steps_of(i) > 1);
+        if (!cut) run_pass(i, plan_.passes[i].repeat_from, plan_.passes[i].repeat_to, false);
+        if (cut ? !run_steps(i, last, goes_on) : !goes_on(steps_of(i))) {
+            for (size_t left = i; cut && left <= last; ++left)
+                timings_.drop(plan_.passes[left].id);
             invalidation_.cut_short(plan_, i, last);
             end_execution();
             return false;
@@ -70,22 +86,15 @@ void Graph::end_execution() {
     inputs_ = nullptr;
 }
 
-/// One pass with all its steps, or the passes of a loop step by step. Returns false when `between` does.
-bool Graph::run_loop(size_t first, size_t last, const BetweenPasses& between) {
+/// Of a pass, or of the passes of a loop. Returns false when `goes_on`, which is asked after each, does.
+bool Graph::run_steps(size_t first, size_t last, const std::function<bool(int)>& goes_on) {
     const PlanPass& head = plan_.passes[first];
-    const auto goes_on = [&](size_t i) {
-        return !between || i + 1 == plan_.passes.size() || !invalidation_.runs(i) || between(i);
-    };
-    if (head.loop.empty() && (!between || head.repeat_to - head.repeat_from <= 1)) {
-        run_pass(first, head.repeat_from, head.repeat_to, false);
-        return goes_on(first);
-    }
     for (int step = head.repeat_from; step < head.repeat_to; ++step) {
         // What one of them reads, or overwrites, any other may have touched in the step before.
         if (step > head.repeat_from) memory_barrier(head.loop.empty() ? head.step_barriers : GL_ALL_BARRIER_BITS);
         for (size_t i = first; i <= last; ++i) {
             run_pass(i, step, step + 1, true);
-            if (!goes_on(i)) return false;
+            if (!goes_on(invalidation_.runs(i) ? 1 : 0)) return false;
         }
     }
     return true;
@@ -113,8 +122,8 @@ void Graph::run_pass(size_t index, int from, int to, bool cut) {
             allocations_.clear(resource, plan_.resources[size_t(resource)].declaration.neutral);
     }
     if (pass.barriers) memory_barrier(pass.barriers);
-    bool whole = usable;
-    if (usable) {
+    bool whole = usable && !failed_.contains(pass.id); // by a step before this one
+    if (whole) {
         try {
             for (int i = from; i < to; ++i) {
                 if (i > from && pass.step_barriers) memory_barrier(pass.step_barriers);
@@ -128,9 +137,10 @@ void Graph::run_pass(size_t index, int from, int to, bool cut) {
             if (broke_[pass.id] != text) spdlog::error("pass '{}': {}", pass.id, text);
             broke_[pass.id] = text;
             whole = false;
+            failed_.insert(pass.id);
             fill_failed(pass);
         }
-    } else {
+    } else if (!usable) {
         fill_failed(pass);
     }
     timings_.end(pass.id, step);

@@ -13,6 +13,7 @@
 
 #include <functional>
 #include <memory>
+#include <set>
 
 namespace bounce {
 
@@ -22,8 +23,8 @@ struct FrameInputs {
     FrameConstants constants; ///< previous_view_projection, lights … filled in by the session
 };
 
-/// See Graph::execute().
-using BetweenPasses = std::function<bool(size_t done)>;
+/// See Graph::execute(). `done`: share of the frame's passes and steps.
+using BetweenPasses = std::function<bool(float done)>;
 
 /// What can go wrong while the program lives on.
 struct GraphProblem {
@@ -46,10 +47,9 @@ class Graph {
     /// it, a static one its program, one that shapes resources the plan. Throws Error the first time only; later a
     /// failure keeps the last good plan and shows in problems().
     void prepare(const SceneFacts& facts, glm::ivec2 size);
-    /// One frame. prepare() must have run. `between` is called between passes and between their steps with the number
-    /// of passes that are done; it may draw, but must not change the model. When it returns false the rest of the frame
-    /// is left out, and what changed since the last whole frame is made in the next. Returns whether the frame is
-    /// whole.
+    /// One frame. prepare() must have run. `between` is called between passes and between their steps; it may draw, but
+    /// must not change the model. When it returns false the rest of the frame is left out, and what changed since the
+    /// last whole frame is made in the next. Returns whether the frame is whole.
     bool execute(const FrameInputs& inputs, const BetweenPasses& between = {});
 
     /// Waits for what the passes counted in this frame. True when a buffer of one of them was too small: the frame is
@@ -120,7 +120,7 @@ class Graph {
     std::vector<std::string> check_interface(const PassNode& node, const PlanPass& pass,
                                              const ProgramInterface& interface) const;
     bool needs_plan(const SceneFacts& facts, glm::ivec2 size);
-    bool run_loop(size_t first, size_t last, const BetweenPasses& between);
+    bool run_steps(size_t first, size_t last, const std::function<bool(int)>& goes_on);
     void run_pass(size_t index, int from, int to, bool cut);
     void end_execution();
     void ask_for_larger_buffers();
@@ -147,6 +147,7 @@ class Graph {
     std::map<std::string, Built> built_;              ///< per "id/program"
     std::map<std::string, std::string> broke_;        ///< pass id → why it could not run in the newest frame
     std::vector<std::filesystem::path> edited_files_; ///< of the program that was edited last
+    std::set<std::string> failed_;                    ///< passes of which a step could not run in this frame
     std::string lost_in_;
     int watched_frames_ = 0; ///< in which each pass is waited for, and asked whether the context was lost in it
     std::string file_problem_, plan_problem_;

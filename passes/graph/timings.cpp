@@ -31,6 +31,12 @@ void Timings::end(const std::string& id, size_t step) {
     take(times);
 }
 
+void Timings::drop(const std::string& id) {
+    Times& times = times_[id];
+    times.parts.clear();
+    std::erase(times.pending, true);
+}
+
 void Timings::skip(const std::string& id) {
     Times& times = times_[id];
     times.skipped = true;

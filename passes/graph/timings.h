@@ -27,6 +27,8 @@ class Timings {
     /// Around the pass, or one step of `steps` of it: a run's time is the sum of its steps'.
     void begin(const std::string& id, size_t step, size_t steps);
     void end(const std::string& id, size_t step);
+    /// It was left between its steps: what was measured of some of them tells nothing.
+    void drop(const std::string& id);
     /// It did not run in this frame.
     void skip(const std::string& id);
     /// Takes what is ready.

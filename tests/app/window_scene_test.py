@@ -98,7 +98,8 @@ class WindowScene(WindowTest):
     def same_as_saved(self, *options):
         """What is shown, and the shot that Ctrl+S makes of it, rendered without the window: the same file."""
         self.input("key", "ctrl+s")
-        state = self.wait(lambda state: state["notice"].startswith("saved"), "the saved shot")
+        # A key that is pressed while a slow frame is rendered is answered at its end.
+        state = self.wait(lambda state: state["notice"].startswith("saved") and state["notice"].endswith(".json"), "the saved shot")
         saved = self.out / pathlib.Path(state["notice"].split(" ", 1)[1]).name
         shown = self.capture("F12")
         self.assert_good(self.run_program("render", saved, *SMALL, "--size", "%dx%d" % PICTURE, *options, "-o", "again.png"))
@@ -149,6 +150,8 @@ class WindowScene(WindowTest):
         self.assertEqual(self.state()["objects"][0], moved)
         self.assertIn("1 object", self.state()["notice"])
         self.input("key", "F5")
+        self.wait(lambda state: "discard.yes" in state["widgets"], "the question")
+        self.input("key", "Return")
         self.wait(lambda state: state["objects"] == first, "the shot as it is in its file")
 
     def test_objects_by_numbers(self):

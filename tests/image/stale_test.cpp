@@ -168,12 +168,12 @@ TEST_P(Stale, AFrameThatIsCutShortShowsWhatAFreshStartShows) {
         ASSERT_NE(differences(base, after), "");
         size_t calls = 0;
         Session session(given);
-        ASSERT_TRUE(session.render(false, [&](size_t) { return ++calls > 0; })) << "cut, but not short";
+        ASSERT_TRUE(session.render(false, [&](float) { return ++calls > 0; })) << "cut, but not short";
         ASSERT_EQ(differences(parts(session), base), "") << rebuild;
         ASSERT_GT(calls, 4u);
         for (size_t last = 1; last <= calls; last += std::max(calls / 6, size_t(1))) {
             size_t call = 0;
-            const BetweenPasses until_last = [&](size_t) { return ++call < last; };
+            const BetweenPasses until_last = [&](float) { return ++call < last; };
             Session cut(given);
             EXPECT_FALSE(cut.render(false, until_last)); // its first frame
             ASSERT_EQ(differences(rendered(cut), base), "") << rebuild << ", first frame left after " << last;
@@ -187,7 +187,7 @@ TEST_P(Stale, AFrameThatIsCutShortShowsWhatAFreshStartShows) {
         rendered(back);
         back.resize({24, 20});
         size_t call = 0;
-        back.render(false, [&](size_t) { return ++call < calls / 2; });
+        back.render(false, [&](float) { return ++call < calls / 2; });
         back.resize({32, 18});
         EXPECT_EQ(differences(rendered(back), base), "") << rebuild << ", another size for half a frame";
     }
