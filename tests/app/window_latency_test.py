@@ -16,6 +16,10 @@ EVENTS = 40
 
 
 class WindowLatency(WindowTest):
+    def wait(self, what, description, seconds=1800):
+        """A large scene takes its time to open."""
+        return super().wait(what, description, seconds)
+
     def answered(self, *words):
         """Milliseconds from the event to the frame that heard it."""
         before, start = self.state()["drawn"], time.monotonic()
