@@ -1,4 +1,4 @@
-"""Films by ffmpeg: by one that stands in for it, by one that fails, without one, and by the real one where it is installed."""
+"""Films by ffmpeg: by a fake of it, by one that fails, without one, and by the real one where it is installed."""
 
 import json
 import shutil
@@ -10,7 +10,7 @@ import unittest
 from program import SMALL, ProgramTest, png_pixel
 from window_driver import PICTURE, WindowTest
 
-STAND_IN = """#!%(python)s
+FAKE = """#!%(python)s
 import json, os, sys
 out = sys.argv[-1].removeprefix("file:")
 open(out, "w").close()
@@ -37,7 +37,7 @@ sys.exit(1)
 
 
 class FilmFixture:
-    def stand_in(self, text):
+    def fake(self, text):
         """Programs on PATH are this ffmpeg, and those that the tests themselves need."""
         folder = self.folder / "bin"
         folder.mkdir(exist_ok=True)
@@ -68,7 +68,7 @@ class Films(FilmFixture, ProgramTest):
         return self.run_program("render", self.shot, *SMALL, "--size", "33x18", *arguments, "-o", output)
 
     def test_frames_go_to_ffmpeg(self):
-        self.stand_in(STAND_IN)
+        self.fake(FAKE)
         self.assert_good(self.render("--frames", 3, output="x.mp4"))
         self.assertEqual(self.names(), ["x.mp4"])
         self.assertEqual((self.out / "x.mp4").read_text(), "a film")
@@ -83,7 +83,7 @@ class Films(FilmFixture, ProgramTest):
         self.assertEqual(tuple(log["first"]), png_pixel(self.out / "x.png", 0, 0), "the top left pixel comes first")
 
     def test_the_shots_pace_and_the_other_format(self):
-        self.stand_in(STAND_IN)
+        self.fake(FAKE)
         self.shot.write_text(json.dumps(dict(json.loads(self.shot.read_text()), fps=23.976)))
         self.assert_good(self.render("--frames", 2, output="-odd 'name'.WebM"))
         self.assertEqual(self.names(), ["-odd 'name'.WebM"])
@@ -92,21 +92,21 @@ class Films(FilmFixture, ProgramTest):
         self.assertEqual(arguments[arguments.index("-c:v") + 1], "libvpx-vp9")
 
     def test_without_ffmpeg(self):
-        self.stand_in("")
+        self.fake("")
         self.assert_refused(self.render("--frames", 2, output="x.mp4"), "ffmpeg is not installed", "apt-get install ffmpeg", "%04d.png")
         self.assert_good(self.render("--frames", 2, output="x_%04d.png"))
 
     def test_an_ffmpeg_that_fails(self):
         for text, words in ((FAILS, "Unknown encoder 'libx264'"), (FAILS_AT_THE_END, "no space left"), ("#!/bin/sh\nexit 3\n", "ffmpeg")):
             with self.subTest(words):
-                self.stand_in(text)
+                self.fake(text)
                 (self.out / "x.mp4").write_text("an older film")
                 result = self.render("--frames", 4, output="x.mp4")
                 self.assert_refused(result, words, "the package ffmpeg", "%04d.png", leaves=["x.mp4"])
                 self.assertEqual((self.out / "x.mp4").read_text(), "an older film")
 
     def test_an_interrupt_leaves_no_half_film(self):
-        self.stand_in(STAND_IN)
+        self.fake(FAKE)
         process = self.start_program("render", self.shot, *SMALL, "--size", "33x18", "--frames", 100000, "-o", self.out / "x.mp4")
         while process.poll() is None and not any(name.startswith(".bounce-film") for name in self.names()):
             time.sleep(0.05)
@@ -116,7 +116,7 @@ class Films(FilmFixture, ProgramTest):
         self.assertEqual(self.names(), [])
 
     def test_names_that_cannot_be(self):
-        self.stand_in(STAND_IN)
+        self.fake(FAKE)
         self.assert_refused(self.render(output="none/x.mp4"), "none")
         self.assert_refused(self.render(output="x.avi"), ".mp4 or .webm")
 
@@ -145,14 +145,14 @@ class Films(FilmFixture, ProgramTest):
 
 class FilmsOfTheWindow(FilmFixture, WindowTest):
     def open_films(self, text):
-        self.stand_in(text)
+        self.fake(text)
         self.open(self.shot, *SMALL, "--size", "%dx%d" % PICTURE)
         self.click("tab.Capture")
         self.click("capture.kind")
         self.click("capture.kind.MP4")
 
     def test_a_film_of_what_is_seen(self):
-        self.open_films(STAND_IN)
+        self.open_films(FAKE)
         self.click("capture.record")
         self.wait(lambda state: state["frame"] >= 3, "frames")
         self.input("key", "ctrl+r")
