@@ -34,7 +34,13 @@ std::string measured_errors(const TableArguments& arguments, const std::filesyst
     std::vector<ErrorTableMeasured> measured;
     for (const ErrorTableRow& row : file.rows) {
         print_error("{}, {} …\n", row.graph, row.name);
-        measured.push_back(measure_row(row, [](const std::string& line) { print_error("  {}\n", line); }));
+        try {
+            measured.push_back(measure_row(row, [](const std::string& line) { print_error("  {}\n", line); }));
+        } catch (const Error& error) {
+            // What other rows measured is not lost by it.
+            print_error("  not measured: {}\n", error.what());
+            measured.emplace_back().skipped = error.what();
+        }
     }
     const std::string about = file.about.empty() ? "" : file.about + "\n\n";
     return origin_head({origin_here()}) + "\n" + about + error_table_markdown(file, measured);

@@ -341,6 +341,16 @@ class CommandLines(Hostile):
             self.assertTrue((self.out / name).exists())
         self.assert_good(self.run_program("reference", shot, "--size", "8x8", "--spp", "2", "-o", "r.exr"))
 
+    def test_a_row_of_a_table_that_fails_costs_no_other(self):
+        row = {"name": "good", "graph": "direct", "shot": str(self.shot), "resource": "out.direct", "size": [8, 8], "samples": 4,
+               "bounces": 0}
+        table = self.write("t.json", json.dumps({"rows": [dict(row, name="bad", resource="out.none"), row]}))
+        result = self.run_program("table", table)
+        self.assert_good(result)
+        rows = [line for line in result.stdout.splitlines() if line.startswith("| ")]
+        self.assertRegex(next(line for line in rows if "bad" in line), r"skipped: .*out\.none")
+        self.assertRegex(next(line for line in rows if "good" in line), r" % \|")
+
     def test_the_first_word_is_told_first(self):
         for command in (("render", "corneli"), ("render", "corneli", "--graph", "nonsense", "-o", "none/x.jpg"),
                         ("reference", "corneli"), ("reference", "corneli", "-o", "none/x.jpg"), ("stability", "corneli"),
