@@ -83,6 +83,8 @@ class Session {
     /// frame later).
     /// With `between`, see Graph::execute(). Returns whether the frame was rendered to its end.
     bool render(bool whole = false, const BetweenPasses& between = {});
+    /// Whether the last frame was rendered to its end.
+    bool is_whole() const { return is_whole_; }
     /// Renders the frame that was left between two passes to its end: for who keeps a picture of it.
     void finish_frame() {
         if (!is_whole_) render();

@@ -236,7 +236,8 @@ bool ViewerApp::render_if_wanted() {
     bool wanted = advance || ui_.redraw_frames > 0 || ui_.render_always || ui_.window.capture.recording ||
                   options_.frames > 0 || time_to_measure(seconds_now());
     if (!wanted) return false;
-    if (advance) session_->advance();
+    // While time plays, a frame that was left for a motion of the camera is rendered before the next.
+    if (advance && (session_->is_whole() || ui_.paused)) session_->advance();
     ui_.redraw_frames = std::max(ui_.redraw_frames - 1, 0);
     return render();
 }
