@@ -11,6 +11,7 @@
 #include "reference/reference_image.h"
 
 #include <cmath>
+#include <utility>
 
 namespace bounce {
 
@@ -37,16 +38,31 @@ std::string Variant::text() const {
     return parts.empty() ? "as it is" : join(parts, ", ");
 }
 
+void set_parameters(GraphModel& model, const std::map<std::string, std::string>& sets,
+                    const std::function<void(const std::string&)>& before) {
+    std::map<std::string, std::string> open = sets;
+    for (bool found = true; found;) {
+        found = false;
+        for (auto it = open.begin(); it != open.end();) {
+            if (!model.find_parameter(it->first)) {
+                ++it;
+                continue;
+            }
+            if (before) before(it->first);
+            model.set(it->first, it->second, ParameterOrigin::command_line);
+            it = open.erase(it);
+            found = true;
+        }
+    }
+    if (!open.empty()) model.parameter(open.begin()->first); // throws, with the nearest name
+}
+
 VariantMeasurer::VariantMeasurer(const SessionOptions& options, int samples, int frames) : frames_(frames) {
     set_shader_errors_logged(false);
     session_ = std::make_unique<Session>(options);
     throw_if_broken(*session_, "nothing was measured");
     still_ = stands_still(*session_);
     const GraphModel& model = session_->graph().model();
-    for (const std::string& name : model.parameter_names()) {
-        const Parameter& p = model.parameter(name);
-        own_sets_[name] = to_text(p.info, p.value);
-    }
     for (const auto& node : model.nodes())
         own_switches_[node->id()] = node->enabled;
     const Transport& transport = model.file().transport;
@@ -70,12 +86,15 @@ void VariantMeasurer::use(const Variant& variant) {
     GraphModel& model = session_->graph().model();
     for (auto& node : model.nodes())
         node->enabled = own_switches_.at(node->id());
-    for (const auto& [name, text] : own_sets_) {
-        const auto own = variant.sets.find(name);
-        const std::string& wanted = own == variant.sets.end() ? text : own->second;
-        const Parameter& p = model.parameter(name);
-        if (to_text(p.info, p.value) != wanted) model.set(name, wanted, ParameterOrigin::command_line);
-    }
+    // Back by their own origin, so that what the file derives from them follows. What a choice brought may be gone.
+    for (const auto& [name, own] : std::exchange(own_sets_, {}))
+        if (model.find_parameter(name)) model.set(name, own.text, own.origin);
+    const auto note_own = [&](const std::string& name) {
+        if (const Parameter* p = model.find_parameter(name)) own_sets_.emplace(name, Own{p->text(), p->origin});
+    };
+    for (const auto& [name, text] : variant.sets)
+        note_own(name);
+    set_parameters(model, variant.sets, note_own); // one may come with another's choice
     for (const auto& [pass, on] : variant.switches)
         model.switch_pass(pass, on);
     session_->graph().touch();

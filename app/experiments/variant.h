@@ -5,6 +5,7 @@
 #include "app/session.h"
 #include "core/image.h"
 
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -19,6 +20,11 @@ struct Variant {
     /// "gather.interleave=4, filter off"; "as it is" for none.
     std::string text() const;
 };
+
+/// Sets parameters that may come and go with the choices of each other, those that are there first. `before` is told
+/// the name of each. Throws Error when one is not there in the end.
+void set_parameters(GraphModel& model, const std::map<std::string, std::string>& sets,
+                    const std::function<void(const std::string&)>& before = {});
 
 struct VariantFigures {
     double ms = 0;                      ///< a frame
@@ -43,14 +49,20 @@ class VariantMeasurer {
     Session& session() { return *session_; }
     const Image& reference() const { return truth_part_; }
 
-    /// The session's graph is that of the variant from here on. Throws Error.
+    /// The session's graph is that of the variant from here on. Parameters may come and go with the choices of others;
+    /// throws Error when one that the variant sets is not there in the end.
     void use(const Variant& variant);
 
   private:
+    struct Own {
+        std::string text;
+        ParameterOrigin origin;
+    };
+
     std::unique_ptr<Session> session_;
     int frames_;
     bool still_ = false;
-    std::map<std::string, std::string> own_sets_; ///< of every parameter, before any variant
+    std::map<std::string, Own> own_sets_; ///< of parameters that the variant in use sets: what they were before any
     std::map<std::string, bool> own_switches_;
     std::string parts_;
     LayeredImage truth_;

@@ -76,6 +76,21 @@ TEST_F(Ablate, AVariantIsMeasuredAsAFreshStartIs) {
     EXPECT_EQ(before.bytes, after.bytes);
 }
 
+/// gather.exact_hits is there only where hits are looked up by cones; gather_ordinates.scale follows graph.scale.
+TEST_F(Ablate, AVariantMayBringAndTakeParametersAndWhatFollows) {
+    const AblationSettings s = settings("lrsm");
+    VariantMeasurer measurer(s.session, s.samples, 1);
+    const GraphModel& model = measurer.session().graph().model();
+    const std::vector<std::string> own = model.parameter_names();
+    Variant brought, taken;
+    brought.sets = {{"gather.hit", "near_triangle"}, {"gather.near_share", "0.25"}};
+    taken.sets = {{"gather.hit", "voxel"}, {"rsm.resolution", "128"}};
+    for (const Variant& variant : {taken, brought, taken, Variant{}, brought, Variant{}})
+        EXPECT_NO_THROW(measurer.use(variant)) << variant.text();
+    EXPECT_EQ(model.parameter_names(), own);
+    EXPECT_EQ(model.parameter("rsm.resolution").origin, ParameterOrigin::graph);
+}
+
 TEST_F(Ablate, WithoutItsGatherThereIsNoLight) {
     const AblationSettings s = settings("lrsm");
     VariantMeasurer measurer(s.session, s.samples, 1);
