@@ -25,6 +25,7 @@ struct TuneArguments {
     std::vector<std::string> shots;
     double error = 0, time = 0, memory = 0, minutes = 20;
     std::string over, output;
+    double first_share = 0.5;
     int tries = 200, samples = 256, frames = 2;
     TuneArguments() { session.size = "128x72"; }
 };
@@ -45,6 +46,7 @@ int run(const TuneArguments& arguments) {
     settings.seconds = 60 * arguments.minutes;
     settings.samples = arguments.samples;
     settings.frames = arguments.frames;
+    settings.first_scale = arguments.first_share;
     check_output_file(preset);
 
     HeadlessContext context(arguments.session.device);
@@ -62,8 +64,7 @@ int run(const TuneArguments& arguments) {
     SessionOptions own = settings.session;
     own.shot = settings.shots.front();
     Session session(own);
-    for (const auto& [name, text] : found.variant.sets)
-        session.set_parameter(name, text, ParameterOrigin::command_line);
+    set_parameters(session.graph().model(), found.variant.sets);
     const std::string about =
         fmt::format("Found by tune on {}: {:.3g} ms and {:.2f} % of error, where {} has {:.3g} ms and {:.2f} %.",
                     join(settings.shots, ", "), found.figures.ms, 100 * found.figures.error, settings.session.graph,
@@ -109,6 +110,9 @@ void add_tune_command(CLI::App& app, CommandFunction& chosen) {
         ->capture_default_str();
     command->add_option("--frames", a->frames, "frames that are measured, of each")
         ->check(whole_between(1, 1000))
+        ->capture_default_str();
+    command->add_option("--first-size", a->first_share, "width and height of the search's pictures, share of --size")
+        ->check(number_between(0.01, 1))
         ->capture_default_str();
     command
         ->add_option("-o,--output", a->output,

@@ -24,6 +24,7 @@ using nlohmann::json;
 namespace {
 
 constexpr int k_first = 0, k_last = 1; ///< stages
+constexpr int k_attempts = 3;          ///< at what is fast enough at full size
 
 std::string figures_text(const TuneFigures& f) {
     return fmt::format("{:.3g} ms, error {:.2f} %, {:.1f} MiB", f.ms, 100 * f.error, f.bytes / 1048576);
@@ -83,6 +84,18 @@ class Stage {
     std::vector<SessionOptions> options_;
     std::vector<std::unique_ptr<VariantMeasurer>> measurers_;
 };
+
+void sort_by(const TuneGoal& goal, std::vector<TunePoint>& points) {
+    std::stable_sort(points.begin(), points.end(), [&](const TunePoint& a, const TunePoint& b) {
+        return tune_objective(goal, a.figures) < tune_objective(goal, b.figures);
+    });
+}
+
+std::vector<TunePoint> survivors_of(std::vector<TunePoint> points, const TuneGoal& goal, size_t most) {
+    sort_by(goal, points);
+    if (points.size() > most) points.resize(most);
+    return points;
+}
 
 bool matches(const std::string& name, const std::string& pattern) {
     return pattern.ends_with("*") ? name.starts_with(pattern.substr(0, pattern.size() - 1)) : name == pattern;
@@ -187,28 +200,35 @@ TuneOutcome tune(const TuneSettings& settings, TuneMemory& memory, const std::fu
         outcome.own[parameter.name] = parameter.own;
     }
     say(fmt::format("{} parameters: {}", parameters.size(), join(outcome.over, ", ")));
-    outcome.search = tune_search(
-        parameters, settings.goal, settings.budget,
-        [&](const Variant& variant) { return first.measure(variant, memory, say); }, in_time);
-
-    // Survivors at full size: the best by the goal, the start for comparison.
-    TuneGoal goal = settings.goal;
-    if (!goal.error && !goal.ms) goal.error = outcome.search.start.figures.error;
-    std::vector<TunePoint> points = outcome.search.points;
-    std::stable_sort(points.begin(), points.end(), [&](const TunePoint& a, const TunePoint& b) {
-        return tune_objective(goal, a.figures) < tune_objective(goal, b.figures);
-    });
-    if (points.size() > size_t(settings.survivors)) points.resize(size_t(settings.survivors));
     const std::optional<TuneFigures> own = last.measure({}, memory, say);
     if (!own) throw Error("the graph does not work as it is at full size");
-    if (!settings.goal.error && !settings.goal.ms) goal.error = own->error;
+    const std::optional<TuneFigures> own_first = first.measure({}, memory, say);
+    TuneGoal goal = settings.goal;
+    if (!goal.error && !goal.ms) goal.error = own->error;
+
+    // Small pictures take less time: the search keeps to a share of what is allowed. What is found says better than the
+    // start how large that share is.
+    double share = own_first ? own_first->ms / own->ms : 1;
     std::vector<TunePoint> survivors;
-    for (const TunePoint& point : points)
-        if (const auto figures = last.measure(point.variant, memory, say))
-            survivors.push_back({point.variant, *figures});
-    std::stable_sort(survivors.begin(), survivors.end(), [&](const TunePoint& a, const TunePoint& b) {
-        return tune_objective(goal, a.figures) < tune_objective(goal, b.figures);
-    });
+    for (int attempt = 0; attempt < k_attempts; ++attempt) {
+        TuneGoal first_goal = settings.goal;
+        if (first_goal.ms) *first_goal.ms *= share;
+        outcome.search = tune_search(
+            parameters, first_goal, settings.budget,
+            [&](const Variant& variant) { return first.measure(variant, memory, say); }, in_time);
+        if (!first_goal.error && !first_goal.ms) first_goal.error = outcome.search.start.figures.error;
+        survivors = survivors_of(outcome.search.points, first_goal, size_t(settings.survivors));
+        share = 1;
+        std::erase_if(survivors, [&](TunePoint& point) {
+            const auto figures = last.measure(point.variant, memory, say);
+            if (figures) share = std::min(share, point.figures.ms / figures->ms), point.figures = *figures;
+            return !figures;
+        });
+        sort_by(goal, survivors);
+        if (!goal.ms || survivors.empty() || survivors.front().figures.ms <= *goal.ms || !in_time()) break;
+        say(fmt::format("the best takes {:.3g} ms at full size: again, with {:.0f} % of the time",
+                        survivors.front().figures.ms, 100 * share));
+    }
     outcome.finals.push_back({{}, *own});
     outcome.finals.insert(outcome.finals.end(), survivors.begin(), survivors.end());
     return outcome;

@@ -14,11 +14,11 @@ struct TuneSettings {
     SessionOptions session; ///< of every point: the graph, what else holds; the size is that of the last stage
     TuneGoal goal;
     std::vector<std::string> over; ///< "gather.interleave", "gather.*"; empty: all that matter
-    int budget = 200;              ///< variants of the first stage
+    int budget = 200;              ///< variants of each search
     double seconds = 1200;         ///< after which no further variant is begun
     int samples = 256, frames = 2;
     int survivors = 4;        ///< that are measured at full size
-    double first_scale = 0.5; ///< size of the first stage
+    double first_scale = 0.5; ///< size of the search's pictures, share of the full size
 };
 
 struct TuneOutcome {

@@ -1,20 +1,27 @@
 #include "app/experiments/tune_search.h"
 
 #include "core/error.h"
+#include "core/low_discrepancy.h"
 #include "core/parameter_steps.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace bounce {
 
 namespace {
 
+/// Gains of moves that nobody has tried.
+constexpr double k_untried_choice = 2e9, k_untried_number = 1e9;
 constexpr double k_limit_weight = 20; ///< e-folds of time for an e-fold above a limit
 constexpr double k_gain = 0.005;      ///< of the objective, that is no noise
+constexpr double k_time_noise = 0.02; ///< of itself: beyond a limit of time, what is less is no gain
+constexpr double k_far = 2;           ///< times the limit: from there on all sizes shrink at once
 constexpr size_t k_max_pairs = 24;    ///< that are tried after a round without success
+constexpr int k_max_leaps = 24;       ///< that are tried in vain before the search ends
 
 double above(double value, const std::optional<double>& limit) {
     return limit && value > *limit ? std::log(value / *limit) : 0;
@@ -37,9 +44,9 @@ class Search {
         result_.start = result_.best = {{}, *start};
         if (!goal_.error && !goal_.ms) goal_.error = start->error;
         best_value_ = tune_objective(goal_, *start);
-        std::vector<Move> moves = screened();
-        try_together(moves);
-        while (round(moves) || pair_helps()) {
+        shrink();
+        std::vector<Move> moves;
+        while (round(moves) || pair_helps() || leap_helps(moves)) {
         }
         return result_;
     }
@@ -61,17 +68,37 @@ class Search {
         const std::optional<TuneFigures> figures = figures_of(variant);
         if (!figures) return -std::numeric_limits<double>::infinity();
         const double value = tune_objective(goal_, *figures), gain = best_value_ - value;
-        if (gain > k_gain) {
+        if (gain > noise(*figures)) {
             best_value_ = value;
             result_.best = {variant, *figures};
         }
         return gain;
     }
 
+    /// How much of a gain may be that of a second measurement of the same.
+    double noise(const TuneFigures& figures) const {
+        const bool is_late = above(std::max(figures.ms, result_.best.figures.ms), goal_.ms) > 0;
+        return k_gain + (is_late ? k_limit_weight * k_time_noise : 0);
+    }
+
+    const TuneParameter& parameter(const std::string& name) const {
+        return *std::find_if(parameters_.begin(), parameters_.end(),
+                             [&](const TuneParameter& p) { return p.name == name; });
+    }
+
+    bool is_choice(const std::string& name) const {
+        const ParameterKind kind = parameter(name).info.kind;
+        return kind == ParameterKind::boolean || kind == ParameterKind::enumeration;
+    }
+
+    /// The value of a parameter in a variant.
+    std::string text_in(const Variant& variant, const std::string& name) const {
+        const auto set = variant.sets.find(name);
+        return set == variant.sets.end() ? parameter(name).own : set->second;
+    }
+
     Variant with(Variant variant, const Move& move) const {
-        const auto own = std::find_if(parameters_.begin(), parameters_.end(),
-                                      [&](const TuneParameter& p) { return p.name == move.name; });
-        if (own->own == move.text)
+        if (parameter(move.name).own == move.text)
             variant.sets.erase(move.name);
         else
             variant.sets[move.name] = move.text;
@@ -80,47 +107,33 @@ class Search {
 
     std::vector<Move> moves_from(const Variant& variant) const {
         std::vector<Move> moves;
-        for (const TuneParameter& parameter : parameters_) {
-            const auto set = variant.sets.find(parameter.name);
-            for (const std::string& text :
-                 neighbours_of(parameter, set == variant.sets.end() ? parameter.own : set->second))
+        for (const TuneParameter& parameter : parameters_)
+            for (const std::string& text : neighbours_of(parameter, text_in(variant, parameter.name)))
                 moves.push_back({parameter.name, text, 0});
-        }
         return moves;
     }
 
-    /// Every move from the start, without taking any; the best first.
-    std::vector<Move> screened() {
-        std::vector<Move> moves;
-        for (Move move : moves_from({})) {
-            if (spent()) break;
-            const std::optional<TuneFigures> figures = figures_of(with({}, move));
-            if (!figures) continue;
-            move.gain = best_value_ - tune_objective(goal_, *figures);
-            moves.push_back(move);
-        }
-        std::stable_sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) { return a.gain > b.gain; });
-        return moves;
-    }
-
-    /// All that help, of each parameter the best; then the better half of them, and so on.
-    void try_together(const std::vector<Move>& moves) {
-        std::vector<Move> helping;
-        for (const Move& move : moves)
-            if (move.gain > k_gain && std::none_of(helping.begin(), helping.end(),
-                                                   [&](const Move& known) { return known.name == move.name; }))
-                helping.push_back(move);
-        while (!helping.empty() && !spent()) {
-            Variant together;
-            for (const Move& move : helping)
-                together = with(together, move);
-            try_variant(together);
-            helping.resize(helping.size() / 2);
+    /// Far beyond the time that is allowed, single moves are slow to measure and bring little: all whole numbers, which
+    /// are sizes and counts, are halved at once until the time is met or nothing can be halved.
+    void shrink() {
+        Variant variant;
+        while (goal_.ms && result_.best.figures.ms > k_far * *goal_.ms && !spent()) {
+            const Variant before = variant;
+            for (const TuneParameter& parameter : parameters_) {
+                if (parameter.info.kind != ParameterKind::integer) continue;
+                const std::string now = text_in(variant, parameter.name);
+                const std::vector<std::string> next = neighbours_of(parameter, now);
+                if (!next.empty() && less(next.front(), now)) variant.sets[parameter.name] = next.front();
+            }
+            if (variant == before || try_variant(variant) <= 0) return;
         }
     }
 
-    /// One move after the other from the best so far, those first that helped most when they were tried last. Whether
-    /// any helped.
+    static bool less(const std::string& a, const std::string& b) { return std::atof(a.c_str()) < std::atof(b.c_str()); }
+
+    /// One move after the other from the best so far, each taken as soon as it helps: what helps only beside another is
+    /// found sooner so than by measuring all from the start. First those of parameters that helped most when they were
+    /// tried last; in the first round choices, then numbers. Whether any helped.
     bool round(std::vector<Move>& tried) {
         std::map<std::string, double> gains; // of each parameter
         for (const Move& move : tried) {
@@ -128,19 +141,49 @@ class Search {
             it->second = std::max(it->second, move.gain);
         }
         std::vector<Move> moves = moves_from(result_.best.variant);
-        for (Move& move : moves)
-            if (const auto known = gains.find(move.name); known != gains.end()) move.gain = known->second;
+        for (Move& move : moves) {
+            const auto known = gains.find(move.name);
+            move.gain = known != gains.end()   ? known->second
+                        : is_choice(move.name) ? k_untried_choice
+                                               : k_untried_number;
+        }
         std::stable_sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) { return a.gain > b.gain; });
         tried.clear();
         bool helped = false;
+        std::set<std::string>
+            idle; // numbers that change nothing where the search stands: of a part that is switched off
         for (Move& move : moves) {
             if (spent()) return false;
-            const double before = best_value_;
-            move.gain = try_variant(with(result_.best.variant, move));
+            if (idle.contains(move.name)) continue;
+            const TunePoint from = result_.best;
+            const bool move_helped = go_further(move);
             tried.push_back(move);
-            helped |= best_value_ < before;
+            helped |= move_helped;
+            const std::optional<TuneFigures>& figures = known_[with(from.variant, move)];
+            if (move_helped)
+                idle.clear();
+            else if (figures && figures->error == from.figures.error && !is_choice(move.name))
+                idle.insert(move.name);
         }
         return helped;
+    }
+
+    /// The move, and while it helps the next step in its direction. Notes what the first step brought.
+    bool go_further(Move& first) {
+        Move move = first;
+        std::set<std::string> been;
+        for (bool is_first = true;; is_first = false) {
+            const double before = best_value_;
+            been.insert(text_in(result_.best.variant, move.name));
+            move.gain = try_variant(with(result_.best.variant, move));
+            if (is_first) first.gain = move.gain;
+            if (best_value_ == before) return !is_first;
+            if (is_choice(move.name)) return true;
+            const std::vector<std::string> next = neighbours_of(parameter(move.name), move.text);
+            const auto on = std::find_if(next.begin(), next.end(), [&](auto& text) { return !been.contains(text); });
+            if (on == next.end() || spent()) return true;
+            move.text = *on;
+        }
     }
 
     /// After a round that brought nothing: two moves at once, where what each does by itself lets expect that they help
@@ -179,6 +222,25 @@ class Search {
         return false;
     }
 
+    /// Where single moves and pairs bring nothing: three or four moves at once, mostly those that cost least by
+    /// themselves. Whether one such leap helped.
+    bool leap_helps(std::vector<Move> tried) {
+        std::stable_sort(tried.begin(), tried.end(), [](const Move& a, const Move& b) { return a.gain > b.gain; });
+        std::erase_if(tried, [](const Move& move) { return !std::isfinite(move.gain); });
+        for (int leap = 0; leap < k_max_leaps && !tried.empty() && !spent(); ++leap) {
+            Variant variant = result_.best.variant;
+            std::set<std::string> names;
+            for (int tries = 0, wanted = 3 + leap % 2; tries < 32 && int(names.size()) < wanted; ++tries) {
+                // The square of a number between 0 and 1: a quarter of the moves is drawn half of the time.
+                const double drawn = unit_float(hash_u32(drawn_++));
+                const Move& move = tried[std::min(size_t(drawn * drawn * double(tried.size())), tried.size() - 1)];
+                if (names.insert(move.name).second) variant = with(variant, move);
+            }
+            if (!known_.contains(variant) && try_variant(variant) > k_gain) return true;
+        }
+        return false;
+    }
+
     const std::vector<TuneParameter>& parameters_;
     TuneGoal goal_;
     int budget_;
@@ -187,6 +249,7 @@ class Search {
     std::map<Variant, std::optional<TuneFigures>> known_;
     TuneResult result_;
     double best_value_ = 0;
+    uint32_t drawn_ = 0; ///< random numbers
 };
 
 } // namespace

@@ -3,10 +3,11 @@
 // an error at the least time, or the least error within a time. It knows nothing of graphs: figures come from whoever
 // evaluates.
 //
-// First every move is screened by itself. Moves that help are then tried together, and in halves where they do not help
-// together; then one after the other, best first, round by round. After a round that brings nothing, pairs of moves are
-// tried whose separate effects let expect that they help together. It ends when these do not help, or the budget is
-// spent.
+// A start that is far beyond the time allowed has all its sizes halved first. Then moves are tried one after the other,
+// and each that helps is taken at once, and further in its direction, round by round; those first that helped most in
+// the round before. After a round that brings nothing, pairs of moves are tried whose separate effects let expect that
+// they help together; after these, three or four moves at once, drawn at random with a fixed seed. It ends when nothing
+// of this helps, or the budget is spent.
 
 #include "app/experiments/variant.h"
 #include "core/parameters.h"

@@ -130,6 +130,37 @@ TEST(Tune, WithoutAGoalTheErrorStaysAndTheTimeFalls) {
     EXPECT_LT(found.best.figures.ms, 0.5 * found.start.figures.ms);
 }
 
+/// Three choices of which one or two make it worse, and all three together much better: planes, their filter, fewer
+/// rays.
+TEST(Tune, FindsChoicesThatHelpOnlyTogether) {
+    std::vector<TuneParameter> parameters;
+    for (const char* name : {"a", "b", "c", "d", "e", "f"})
+        parameters.push_back(choice(name, "off", {"off", "on"}));
+    const TuneEvaluator evaluate = [&](const Variant& variant) -> std::optional<TuneFigures> {
+        const int on = int(variant.sets.size());
+        const bool together = variant.sets.contains("b") && variant.sets.contains("d") && variant.sets.contains("e");
+        return TuneFigures{10.0 + on, (together ? 0.1 : 1) * (1 + 0.1 * on), 0};
+    };
+    TuneGoal goal;
+    goal.ms = 20;
+    const TuneResult found = tune_search(parameters, goal, 200, evaluate, [] { return true; });
+    EXPECT_EQ(found.best.variant.text(), "b=on, d=on, e=on");
+}
+
+TEST(Tune, FromFarBeyondTheTimeAllSizesShrinkAtOnce) {
+    MadeUp graph;
+    TuneGoal goal;
+    goal.ms = 1;
+    const TuneEvaluator inner = graph.evaluator();
+    tune_search(
+        graph.parameters, goal, 3,
+        [&](const Variant& variant) {
+            EXPECT_EQ(variant.sets.size(), variant == Variant{} ? 0u : 2u) << variant.text();
+            return inner(variant);
+        },
+        [] { return true; });
+}
+
 TEST(Tune, ABudgetIsKeptAndNothingIsEvaluatedTwice) {
     MadeUp graph;
     std::set<Variant> seen;
