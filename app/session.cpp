@@ -243,7 +243,7 @@ std::vector<std::pair<std::string, std::string>> Session::changed_parameters(Par
     std::vector<std::pair<std::string, std::string>> changed;
     auto add = [&](const std::string& id, const ParameterSet& set) {
         for (const Parameter& p : set.all()) {
-            if (p.origin >= at_least && p.value != p.info.default_value) {
+            if (p.origin >= at_least && p.text() != p.info.default_text()) {
                 changed.emplace_back(id + "." + p.info.name, to_text(p.info, p.value));
             }
         }

@@ -20,7 +20,7 @@ ParameterText text_of(const std::string& id, const Parameter& parameter) {
 
 ParameterText home_of(const GraphModel& model, const std::string& id, const Parameter& parameter) {
     const ParameterInfo& info = parameter.info;
-    ParameterText home{id + "." + info.name, to_text(info, info.default_value), ParameterOrigin::default_value};
+    ParameterText home{id + "." + info.name, info.default_text(), ParameterOrigin::default_value};
     const PassNode* node = model.find_node(id);
     if (!node) return home;
     auto given = node->entry.params_json.find(info.name);

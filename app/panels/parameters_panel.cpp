@@ -49,7 +49,7 @@ std::string help_text(const std::string& name, const std::string& type, const Pa
     std::string text = name + (info.help.empty() ? "" : ": " + info.help);
     std::string range = range_text(info);
     if (!range.empty()) text += "\nrange " + range + (info.unit.empty() ? "" : " " + info.unit);
-    text += "\ndefault " + to_text(info, info.default_value);
+    text += "\ndefault " + info.default_text();
     text += fmt::format("\nnow {}{}: {}", p.is_auto ? "auto, " : "", to_text(info, p.value), whose(p.origin));
     if (p.is_auto && !p.reason.empty()) text += "\nbecause " + p.reason;
     if (info.is_static) text += "\ncompiled in: a change compiles the shader again, when you let go";
@@ -242,7 +242,7 @@ void draw_parameters_panel(PanelContext& context) {
     std::erase_if(all, [&](const NamedParameter& named) {
         const ParameterInfo& info = named.parameter->info;
         bool found = contains(named.name(), ui.parameter_filter) || contains(info.help, ui.parameter_filter);
-        bool changed = named.parameter->value != info.default_value;
+        bool changed = named.parameter->text() != info.default_text();
         return !found || (ui.only_changed_parameters && !changed && ui.edit.name != named.name());
     });
     if (all.empty()) show_text("no parameter fits", k_dim_colour);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace bounce {
 
@@ -79,6 +80,10 @@ std::string range_text(const ParameterInfo& info) {
     if (!info.choices.empty()) return "{" + join(info.choices, ", ") + "}";
     if (std::isinf(info.min) && std::isinf(info.max)) return "";
     return fmt::format("[{}, {}]", float(info.min), float(info.max));
+}
+
+std::string ParameterInfo::default_text() const {
+    return auto_by_default ? k_auto : to_text(*this, default_value);
 }
 
 std::string Parameter::text() const {
@@ -230,7 +235,7 @@ void ParameterSet::insert(Parameter parameter) {
 void ParameterSet::declare_shader_parameter(const ParameterInfo& info) {
     Parameter* old = find(info.name);
     if (!old) {
-        insert({info, info.default_value, ParameterOrigin::default_value, {}});
+        insert({info, info.default_value, ParameterOrigin::default_value, {}, info.auto_by_default});
         return;
     }
     if (!old->info.in_shader) return; // a C++ parameter of that name feeds the uniform
@@ -238,16 +243,18 @@ void ParameterSet::declare_shader_parameter(const ParameterInfo& info) {
     ParameterValue value = old->value;
     ParameterOrigin origin = old->origin;
     const bool still_auto = old->is_auto && old->info.automatic == info.automatic;
+    const std::string reason = std::exchange(old->reason, "");
     old->info = info;
     old->value = info.default_value;
     old->origin = ParameterOrigin::default_value;
-    old->is_auto = false;
+    old->is_auto = info.auto_by_default;
     if (!same_kind || origin == ParameterOrigin::default_value) return;
     try {
         check_range(info, value);
         old->value = value;
         old->origin = origin;
         old->is_auto = still_auto;
+        if (still_auto) old->reason = reason;
     } catch (const Error&) {
         // The new range excludes the old value: the default stands.
     }
@@ -319,7 +326,9 @@ void ParameterSet::resolve(std::string_view name, double need, const std::string
 }
 
 void ParameterSet::reset(std::string_view name) {
-    set(name, require(*this, name).info.default_value, ParameterOrigin::default_value);
+    Parameter& parameter = require(*this, name);
+    set(name, parameter.info.default_value, ParameterOrigin::default_value);
+    parameter.is_auto = parameter.info.auto_by_default;
 }
 
 std::vector<std::string> ParameterSet::names() const {

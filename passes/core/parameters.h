@@ -36,6 +36,9 @@ struct ParameterInfo {
     bool in_shader = false;
     std::string where;     ///< "glsl/x.comp:12" for shader parameters
     std::string automatic; ///< the need of the scene that the value "auto" follows (scene/needs.h); "": takes no "auto"
+    bool auto_by_default = false; ///< the default is "auto"; default_value holds until a scene is there
+    /// The default as --set takes it.
+    std::string default_text() const;
 };
 
 /// The text that stands for a value by the scene's needs.

@@ -11,6 +11,7 @@
 #include "graph/scope.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -87,6 +88,15 @@ std::vector<std::string> numbers_of(const json& array) {
     return numbers;
 }
 
+/// What a parameter is whose default is "auto", until a scene is there: in the middle of its limits, by factors. Their
+/// type is its own.
+ParameterValue before_a_scene(ParameterInfo& info, const json* range) {
+    if (!(info.min > 0) || !std::isfinite(info.max))
+        throw Error("a 'default' of \"auto\" needs a 'range' or 'choices' above 0");
+    if (range && (*range)[0].is_number_integer() && (*range)[1].is_number_integer()) info.kind = ParameterKind::integer;
+    return value_for(info, std::sqrt(info.min * info.max));
+}
+
 ParameterInfo read_parameter(const std::string& name, const json& value, const std::string& where, ErrorList& errors) {
     ObjectReader reader(value, where, errors);
     ParameterInfo info;
@@ -97,6 +107,8 @@ ParameterInfo read_parameter(const std::string& name, const json& value, const s
     const json* range = reader.get("range");
     const json* choices = reader.get("choices");
     const json* fallback = reader.get("default");
+    // "auto" has no type of its own: its limits do.
+    const bool is_auto = fallback && *fallback == k_auto && !info.automatic.empty();
     const bool named = choices && choices->is_array() &&
                        std::any_of(choices->begin(), choices->end(), [](const json& c) { return !c.is_number(); });
     if (named) {
@@ -126,7 +138,8 @@ ParameterInfo read_parameter(const std::string& name, const json& value, const s
     }
     try {
         if (choices && choices->is_array() && !named) choose_from(info, numbers_of(*choices));
-        info.default_value = parse_value(info, *fallback);
+        info.auto_by_default = is_auto;
+        info.default_value = is_auto ? before_a_scene(info, range) : parse_value(info, *fallback);
     } catch (const Error& error) {
         reader.error(error.what());
     }

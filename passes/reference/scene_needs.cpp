@@ -21,6 +21,9 @@ constexpr double k_proxies_across = 95, k_least_proxies = 24000, k_most_proxies 
 // Of proxies that light reaches a texel's lists hold so many: in bright rooms more of them lose light again.
 constexpr double k_most_lit_proxies = 22000;
 constexpr double k_cells_across = 1.5, k_least_cells = 6, k_most_cells = 32;
+// Light that is swept through cells bleeds through what is thinner than one. With 96 directions, 50³ cells are the most
+// that a storage block of 128 MiB holds, the least that OpenGL promises.
+constexpr double k_light_cells_across = 5.5, k_least_light_cells = 24, k_most_light_cells = 48;
 
 std::string limited(double wanted, double least, double most) {
     if (wanted < least) return fmt::format(", but no fewer than {:g}", least);
@@ -55,6 +58,8 @@ SceneNeeds needs_of(const FeatureSizes& f, float extent) {
                                         around, f.area, k_proxies_across));
     needs["cells"] = need(std::ceil(k_cells_across * gaps), k_least_cells, k_most_cells,
                           fmt::format("{}: {:g} cells across", around, k_cells_across));
+    needs["light_cells"] = need(std::ceil(k_light_cells_across * gaps), k_least_light_cells, k_most_light_cells,
+                                fmt::format("{}: {:g} cells across", around, k_light_cells_across));
     needs["cones"] = need(std::round(k_cones_by_variance * f.ray_variance), k_least_cones, k_most_cones,
                           fmt::format("what one ray brings varies by {:.2g} times its mean, {:.2g} % of the directions "
                                       "meet lit surfaces",

@@ -49,6 +49,25 @@ TEST_F(AutoTest, WhatFollowsTheGraphFollowsIt) {
     EXPECT_TRUE(m.take_changes().empty()) << "nothing has changed";
 }
 
+TEST_F(AutoTest, AGraphsOwnParameterMayHaveItAsItsDefault) {
+    const std::string passes = R"(,"passes":[])";
+    GraphModel m = model(R"("parameters":{"cells":{"default":"auto","range":[4,64],"auto":"voxels"},)"
+                         R"("side":{"default":"auto","choices":[4,8,16,32],"auto":"voxels"}})" +
+                         passes);
+    EXPECT_TRUE(m.has_auto(true));
+    EXPECT_EQ(m.parameter("graph.cells").info.kind, ParameterKind::integer);
+    m.resolve_auto(needs);
+    EXPECT_EQ(m.number("graph.cells"), 20);
+    EXPECT_EQ(m.number("graph.side"), 32);
+    EXPECT_TRUE(m.values().parameters.empty());
+    m.set("graph.cells", "16", ParameterOrigin::panel);
+    EXPECT_EQ(m.values().options(), "--set graph.cells=16") << "the middle of the range is no default to be left out";
+    m.graph_parameters().reset("cells");
+    EXPECT_TRUE(m.parameter("graph.cells").is_auto);
+    EXPECT_THAT(error_of([&] { model(R"("parameters":{"cells":{"default":"auto","auto":"voxels"}})" + passes); }),
+                testing::HasSubstr("needs a 'range'"));
+}
+
 TEST_F(AutoTest, AnotherModelTakesItOver) {
     GraphModel m = graph(R"("share":0.25)");
     m.set("rays.rays", "auto", ParameterOrigin::panel);
