@@ -7,11 +7,7 @@
 #ifndef SEE_SPHERE // what a view of the cones is told of each sphere; the gather itself keeps nothing
 #define SEE_SPHERE(at_hit, centre, t, diameter, alpha, level, share, light)
 #endif
-#include "lrsm/sample.glsl"
-#include "voxel/exact_hit.glsl"
-#include "voxel/walk_to_hit.glsl"
-
-uniform bool hit_then_sample = false; //! the maps are looked up once a cone, where it is blocked
+uniform bool hit_then_sample = false; //! static the maps are looked up once a cone, where it is blocked
 uniform float hit_aperture = 2.0;     //! [0, 90] (degrees) hit_then_sample: of the cone that finds the hit
 uniform bool exact_hits = false;      //! static hit_then_sample: the hit is found from voxel to voxel instead of by a thin cone
 uniform float hit_radius = 1.5;       //! [0.25, 16] (voxels) hit_then_sample: radius of the sphere that is looked up
@@ -19,7 +15,19 @@ uniform float hit_radius = 1.5;       //! [0.25, 16] (voxels) hit_then_sample: r
 uniform int near_spheres = 0;        //! [0, 8] hit_then_sample: spheres looked up between the surface and the cone's start
 uniform float near_diameter = 0.5;   //! [0.05, 2] (voxels) of these spheres
 
-uniform int hit_lookup = 0; //! {layers, map} light at the hit: a sphere in the layers, or a walk over the shadow maps
+uniform int hit_lookup = 0; //! static {layers, map} light at the hit: a sphere in the layers, or a walk over the shadow maps
+
+// Where every cone walks over the maps, nothing reads the layers, and the graph does not make them.
+#ifndef SAMPLES_AT_TRIANGLES
+#if hit_then_sample
+#if hit_lookup == hit_lookup_map
+#define WALKS_OVER_MAPS
+#endif
+#endif
+#endif
+#include "lrsm/sample.glsl"
+#include "voxel/exact_hit.glsl"
+#include "voxel/walk_to_hit.glsl"
 
 // Where voxels block the cone, from `from` metres on.
 OccludedAt find_lit_hit(VoxelGrid grid, vec3 apex, vec3 direction, float from) {
@@ -37,12 +45,12 @@ Blocker find_blocker(VoxelGrid grid, vec3 apex, vec3 direction, float from) {
 // the sphere that it covers.
 ConeLight light_along_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diameter) {
     vec3 light = vec3(0.0), surface = start.surface, apex = start.apex;
-    if (hit_then_sample && hit_lookup == hit_lookup_map) {
-        WalkedHit hit = walk_to_hit(grid, start, direction);
-        if (hit.t < 0.0) return ConeLight(vec3(0.0), 0.0, -1.0);
-        if (hit.met) SEE_SPHERE(true, surface + hit.t * direction, hit.t, grid.voxel, 1.0, 0.0, 1.0, hit.light);
-        return ConeLight(hit.light, 1.0, hit.t);
-    }
+#ifdef WALKS_OVER_MAPS
+    WalkedHit hit = walk_to_hit(grid, start, direction);
+    if (hit.t < 0.0) return ConeLight(vec3(0.0), 0.0, -1.0);
+    if (hit.met) SEE_SPHERE(true, surface + hit.t * direction, hit.t, grid.voxel, 1.0, 0.0, 1.0, hit.light);
+    return ConeLight(hit.light, 1.0, hit.t);
+#else
     if (hit_then_sample) {
         float open = 1.0;
         for (int k = 0; k < near_spheres; ++k) {
@@ -83,6 +91,7 @@ ConeLight light_along_cone(VoxelGrid grid, ConeStart start, vec3 direction, floa
         t += cone_step * d;
     }
     return ConeLight(light, occlusion, -1.0);
+#endif
 }
 
 #endif

@@ -11,12 +11,6 @@
 #include "surface/rsm_views.glsl"
 #include "lrsm/partition.glsl"
 
-uniform sampler2DArray lrsm_radiance; // R·α, ⟨n·l⟩·α
-uniform sampler2DArray lrsm_normal;   // n·α, α
-uniform sampler2DArray lrsm_depth;    // z·α, z²·α, α; z warped to its layer
-layout(std430) readonly buffer lrsm_partitions { Partition partitions[]; };
-layout(std430) readonly buffer lrsm_table { int table[]; };
-
 uniform int estimator = 0;               //! {published, lit_fraction} how a sphere's light is found
 uniform bool normalised_normals = false; //! N from the filtered normal's direction alone, not its length
 uniform bool layers_by_sphere = false;   //! every layer that the sphere overlaps, instead of those that hold its centre
@@ -25,6 +19,13 @@ uniform float smallest_sigma = 0.004;    //! [0, 0.1] floor of the depth's stand
 uniform float finest_mip = 0.0;          //! [0, 10] mips of the layers finer than this one are not used (Fig. 8)
 uniform float smallest_cosine = 0.05;    //! [0.001, 1] lit_fraction: floor of ⟨n·l⟩
 uniform bool formula_for_cdf = false;    //! static Φ by a formula instead of the table
+
+#ifndef WALKS_OVER_MAPS // lrsm/cone.glsl
+uniform sampler2DArray lrsm_radiance; // R·α, ⟨n·l⟩·α
+uniform sampler2DArray lrsm_normal;   // n·α, α
+uniform sampler2DArray lrsm_depth;    // z·α, z²·α, α; z warped to its layer
+layout(std430) readonly buffer lrsm_partitions { Partition partitions[]; };
+layout(std430) readonly buffer lrsm_table { int table[]; };
 #if !formula_for_cdf
 uniform sampler2D lrsm_normal_table; // Φ over [−4, 4]
 #endif
@@ -136,5 +137,6 @@ vec4 sample_lit(int view_index, vec3 centre, float radius, vec3 to_viewer) {
     lit.a = min(lit.a, 1.0);
     return vec4(lit.rgb * lit.a, lit.a);
 }
+#endif
 
 #endif

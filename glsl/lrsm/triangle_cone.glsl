@@ -2,6 +2,7 @@
 #define LRSM_TRIANGLE_CONE_GLSL
 // Rays that triangles block (traced/trace.glsl), and whose light the layers tell at the hit. With near_triangle that holds
 // for what is near, and beyond it for the voxels of lrsm/cone.glsl; else no occlusion voxels are read.
+#define SAMPLES_AT_TRIANGLES
 #if hit == hit_near_triangle
 #include "lrsm/cone.glsl"
 #else
