@@ -211,6 +211,12 @@ void Session::set_parameter(const std::string& name, const std::string& text, Pa
 /// Of what a person may move about.
 static uint64_t digest_of_places(const Shot& shot) {
     Digest digest;
+    for (const Light& light : shot.scene.lights) {
+        digest.add(light.type).add(light.enabled).add(light.position).add(light.direction).add(light.intensity);
+        digest.add(light.inner_cone).add(light.outer_cone);
+    }
+    for (const Node& node : shot.scene.nodes)
+        if (node.light >= 0) digest.add(node.translation).add(node.rotation);
     for (int node : shot.object_nodes) {
         const Node& object = shot.scene.nodes[size_t(node)];
         digest.add(object.translation).add(object.rotation).add(object.scale);

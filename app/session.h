@@ -54,8 +54,8 @@ class Session {
         scene_dirty_ = true;
         ++edits_;
     }
-    /// Once objects, or the shot's camera path, have come to rest elsewhere: "auto" follows what the shot needs now.
-    /// Returns whether it was measured again.
+    /// Once objects, lights or the shot's camera path have come to rest elsewhere: "auto" follows what the shot needs
+    /// now. Returns whether it was measured again.
     bool measure_moved_needs();
     /// Grows with every edit and every scene that is opened.
     uint64_t edits() const { return edits_; }
@@ -123,7 +123,7 @@ class Session {
     std::unique_ptr<Shot> shot_;
     SceneFacts facts_;
     std::optional<SceneNeeds> needs_;
-    uint64_t needs_places_ = 0; ///< digest of the places for which they were measured
+    uint64_t needs_places_ = 0; ///< digest of the lights and places for which they were measured
     std::unique_ptr<GpuScene> gpu_scene_;
     std::unique_ptr<Graph> graph_;
     TimerMode timer_mode_;

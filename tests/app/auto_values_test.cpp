@@ -76,4 +76,25 @@ TEST_F(AutoSession, AShotGivesValuesWithReasons) {
     EXPECT_FALSE(session.graph().model().has_auto(true));
 }
 
+TEST_F(AutoSession, ALightThatIsMovedOrChangedGivesOthers) {
+    SessionOptions options;
+    options.shot = "cornell";
+    options.graph = "dvs_tuned";
+    options.size = glm::ivec2(16);
+    Session session(options);
+    const auto cones = [&] { return std::get<int>(session.graph().model().parameter("gather.spiral_cones").value); };
+    const int before = cones();
+    EXPECT_FALSE(session.measure_moved_needs());
+    Light& light = session.shot().scene.lights.front();
+    light.outer_cone = 0.05f; // a small spot: few rays meet what is lit
+    light.inner_cone = 0.04f;
+    session.scene_edited();
+    EXPECT_TRUE(session.measure_moved_needs());
+    EXPECT_FALSE(session.measure_moved_needs());
+    EXPECT_GT(cones(), before);
+    for (Node& node : session.shot().scene.nodes)
+        if (node.light >= 0) node.translation.x += 0.5;
+    EXPECT_TRUE(session.measure_moved_needs());
+}
+
 } // namespace bounce
