@@ -10,6 +10,7 @@ import unittest
 
 ROOT = pathlib.Path(os.environ.get("BOUNCE_ROOT") or pathlib.Path(__file__).resolve().parents[2])
 PROGRAM = os.environ.get("BOUNCE_PROGRAM", str(ROOT / "build" / "bounce"))
+LIMIT = 600 if os.environ.get("BOUNCE_SANITIZE") == "ON" else 120  # seconds of a command, also on a machine that is busy
 
 TINY_SHOT = """{"scene": "cornell.gltf", "width": 48, "height": 48,
  "camera": {"position": [2.78, 2.73, -8], "target": [2.78, 2.73, 0], "vfov_deg": 39.3}}"""
@@ -39,7 +40,7 @@ class ProgramTest(unittest.TestCase):
 
     def run_program(self, *arguments, stdout_file=subprocess.PIPE, **options):
         return subprocess.run([PROGRAM, *map(str, arguments)], env=self.environment(), cwd=self.out,
-                              stdout=stdout_file, stderr=subprocess.PIPE, text=True, timeout=120, **options)
+                              stdout=stdout_file, stderr=subprocess.PIPE, text=True, timeout=LIMIT, **options)
 
     def start_program(self, *arguments):
         """Starts it and goes on; what it says goes to the file `said`."""
