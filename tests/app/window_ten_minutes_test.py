@@ -4,7 +4,7 @@ voxels, compare with the reference, break and mend a shader, save, reopen. At th
 import json
 import unittest
 
-from program import SMALL
+from program import LIMIT, SMALL
 from window_driver import PICTURE, WindowTest
 from window_input_test import SLOW
 
@@ -55,7 +55,8 @@ class TenMinutes(WindowTest):
         # How far is it from the truth?
         self.click("tab.Compare")
         self.click("compare.start")
-        state = self.wait(lambda state: state["comparison"]["samples"] >= 8 and not state["comparison"]["running"], "the reference", 300)
+        state = self.wait(lambda state: state["comparison"]["samples"] >= 8 and not state["comparison"]["running"], "the reference",
+                          2.5 * LIMIT)
         self.assertGreater(state["comparison"]["relative_rmse"], 0)
         self.assertLess(state["comparison"]["relative_rmse"], 2)
         self.click("compare.view.split")
