@@ -21,7 +21,7 @@ constexpr double k_gain = 0.005;      ///< of the objective, that is no noise
 constexpr double k_time_noise = 0.02; ///< of itself: beyond a limit of time, what is less is no gain
 constexpr double k_far = 2;           ///< times the limit: from there on all sizes shrink at once
 constexpr size_t k_max_pairs = 24;    ///< that are tried after a round without success
-constexpr int k_max_leaps = 24;       ///< that are tried in vain before the search ends
+constexpr int k_max_leaps = 40;       ///< that are tried in vain before the search ends
 
 double above(double value, const std::optional<double>& limit) {
     return limit && value > *limit ? std::log(value / *limit) : 0;
@@ -222,24 +222,31 @@ class Search {
         return false;
     }
 
-    /// Where single moves and pairs bring nothing: three or four moves at once, mostly those that cost least by
-    /// themselves. Whether one such leap helped.
+    /// Where single moves and pairs bring nothing: two to four moves at once, of numbers one or two steps, mostly those
+    /// that cost least by themselves. Whether one such leap helped.
     bool leap_helps(std::vector<Move> tried) {
         std::stable_sort(tried.begin(), tried.end(), [](const Move& a, const Move& b) { return a.gain > b.gain; });
         std::erase_if(tried, [](const Move& move) { return !std::isfinite(move.gain); });
         for (int leap = 0; leap < k_max_leaps && !tried.empty() && !spent(); ++leap) {
             Variant variant = result_.best.variant;
             std::set<std::string> names;
-            for (int tries = 0, wanted = 3 + leap % 2; tries < 32 && int(names.size()) < wanted; ++tries) {
+            for (int tries = 0, wanted = 2 + leap % 3; tries < 32 && int(names.size()) < wanted; ++tries) {
                 // The square of a number between 0 and 1: a quarter of the moves is drawn half of the time.
-                const double drawn = unit_float(hash_u32(drawn_++));
+                const double drawn = random();
                 const Move& move = tried[std::min(size_t(drawn * drawn * double(tried.size())), tried.size() - 1)];
-                if (names.insert(move.name).second) variant = with(variant, move);
+                if (!names.insert(move.name).second) continue;
+                const std::string before = text_in(variant, move.name);
+                variant = with(variant, move);
+                if (!is_choice(move.name) && random() < 0.5)
+                    for (const std::string& text : neighbours_of(parameter(move.name), move.text))
+                        if (text != before) variant = with(variant, {move.name, text});
             }
             if (!known_.contains(variant) && try_variant(variant) > k_gain) return true;
         }
         return false;
     }
+
+    double random() { return unit_float(hash_u32(drawn_++)); }
 
     const std::vector<TuneParameter>& parameters_;
     TuneGoal goal_;

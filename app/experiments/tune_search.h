@@ -6,8 +6,8 @@
 // A start that is far beyond the time allowed has all its sizes halved first. Then moves are tried one after the other,
 // and each that helps is taken at once, and further in its direction, round by round; those first that helped most in
 // the round before. After a round that brings nothing, pairs of moves are tried whose separate effects let expect that
-// they help together; after these, three or four moves at once, drawn at random with a fixed seed. It ends when nothing
-// of this helps, or the budget is spent.
+// they help together; after these, two to four moves at once, further steps among them, drawn at random with a fixed
+// seed. It ends when nothing of this helps, or the budget is spent.
 
 #include "app/experiments/variant.h"
 #include "core/parameters.h"

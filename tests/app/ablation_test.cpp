@@ -82,13 +82,14 @@ TEST_F(Ablate, AVariantMayBringAndTakeParametersAndWhatFollows) {
     VariantMeasurer measurer(s.session, s.samples, 1);
     const GraphModel& model = measurer.session().graph().model();
     const std::vector<std::string> own = model.parameter_names();
+    const ParameterOrigin origin = model.parameter("rsm.resolution").origin;
     Variant brought, taken;
     brought.sets = {{"gather.hit", "near_triangle"}, {"gather.near_share", "0.25"}};
     taken.sets = {{"gather.hit", "voxel"}, {"rsm.resolution", "128"}};
     for (const Variant& variant : {taken, brought, taken, Variant{}, brought, Variant{}})
         EXPECT_NO_THROW(measurer.use(variant)) << variant.text();
     EXPECT_EQ(model.parameter_names(), own);
-    EXPECT_EQ(model.parameter("rsm.resolution").origin, ParameterOrigin::graph);
+    EXPECT_EQ(model.parameter("rsm.resolution").origin, origin);
 }
 
 TEST_F(Ablate, WithoutItsGatherThereIsNoLight) {

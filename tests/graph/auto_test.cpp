@@ -50,7 +50,9 @@ TEST_F(AutoTest, WhatFollowsTheGraphFollowsIt) {
 }
 
 TEST_F(AutoTest, AGraphsOwnParameterMayHaveItAsItsDefault) {
-    const std::string passes = R"(,"passes":[])";
+    shader("a.comp", "layout(FORMAT_a_out) writeonly uniform image2D a_out;");
+    const std::string passes = R"(,"resources":{"a.out":{"size":[8,8]}},)"
+                               R"("passes":[{"id":"a","type":"compute","shader":"a.comp","dispatch":"a.out"}])";
     GraphModel m = model(R"("parameters":{"cells":{"default":"auto","range":[4,64],"auto":"voxels"},)"
                          R"("side":{"default":"auto","choices":[4,8,16,32],"auto":"voxels"}})" +
                          passes);
