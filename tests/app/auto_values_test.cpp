@@ -46,7 +46,7 @@ TEST(AutoValues, FinerScenesNeedMore) {
         EXPECT_THAT(need.reason, testing::HasSubstr(name == "cones" ? "one ray" : "within 4 m")) << name;
     }
     EXPECT_EQ(few.at("voxels").value, 128)
-        << "10 voxels in each of 5 gaps are 64 as a power of two, which the rule does not go below 128 for";
+        << "5 voxels in each of 5 gaps are 32 as a power of two, which the rule does not go below 128 for";
     EXPECT_THAT(needs_of(fine, 2000).at("voxels").reason, testing::HasSubstr("no more than 256"));
 }
 

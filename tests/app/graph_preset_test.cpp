@@ -32,7 +32,7 @@ class GraphPreset : public GpuTest {
     static std::map<std::string, std::string> values(const GraphModel& model) {
         std::map<std::string, std::string> out;
         for (const std::string& name : model.parameter_names())
-            out[name] = to_text(model.parameter(name).info, model.parameter(name).value);
+            out[name] = model.parameter(name).text();
         for (const auto& node : model.nodes())
             out[node->id()] = node->enabled ? "on" : "off";
         return out;
