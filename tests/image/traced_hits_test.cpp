@@ -100,6 +100,7 @@ TEST_F(TracedHits, AreNearerToTheTruthThanVoxelsAre) {
                                        {k_one_bounce,
                                         {"gather.spiral_cones", "16"},
                                         {"voxelization.resolution", "32"},
+                                        {"gather.hit_lookup", "voxels"},
                                         {"gather.hit", hit},
                                         {"gather.near_share", "0.2"}});
         const double error = relative_rmse(found, truth);
