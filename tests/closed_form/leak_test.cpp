@@ -124,7 +124,7 @@ TEST_F(Leak, OfASealedRoomAgainstTheThicknessOfItsWalls) {
         {"dvs, isotropic", "dvs", {{"filter.mip_rule", "mean"}, {"filter_bounced.mip_rule", "mean"}}, 1e9},
         // Mean planes of voxels that a corner shares let .0074 through a quarter of a voxel.
         {"dvs_tuned", "dvs_tuned", {}, 0.001, 0.015},
-        {"dvs_tuned, walk", "dvs_tuned", {{"gather.hit_lookup", "map"}}, 0.001, 0.015},
+        {"dvs_tuned, light from voxels", "dvs_tuned", {{"gather.hit_lookup", "voxels"}}, 0.001, 0.015},
         {"dvs_tuned, no planes", "dvs_tuned", {{"voxelization.planes", "false"}}, 0.001, 0.002},
     };
     std::map<std::string, std::vector<double>> leaks;
