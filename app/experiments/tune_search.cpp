@@ -150,8 +150,7 @@ class Search {
         std::stable_sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) { return a.gain > b.gain; });
         tried.clear();
         bool helped = false;
-        std::set<std::string>
-            idle; // numbers that change nothing where the search stands: of a part that is switched off
+        std::set<std::string> idle; // numbers of parts that are switched off where the search stands
         for (Move& move : moves) {
             if (spent()) return false;
             if (idle.contains(move.name)) continue;
