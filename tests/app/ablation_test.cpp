@@ -76,20 +76,37 @@ TEST_F(Ablate, AVariantIsMeasuredAsAFreshStartIs) {
     EXPECT_EQ(before.bytes, after.bytes);
 }
 
-/// gather.exact_hits is there only where hits are looked up by cones; gather_ordinates.scale follows graph.scale.
-TEST_F(Ablate, AVariantMayBringAndTakeParametersAndWhatFollows) {
+/// gather.exact_hits is there only where cones look for hits, gather.map_voxels only where triangles are hit.
+TEST_F(Ablate, AVariantMayBringAndTakeParameters) {
     const AblationSettings s = settings("lrsm");
     VariantMeasurer measurer(s.session, s.samples, 1);
     const GraphModel& model = measurer.session().graph().model();
     const std::vector<std::string> own = model.parameter_names();
     const ParameterOrigin origin = model.parameter("rsm.resolution").origin;
-    Variant brought, taken;
-    brought.sets = {{"gather.hit", "near_triangle"}, {"gather.near_share", "0.25"}};
-    taken.sets = {{"gather.hit", "voxel"}, {"rsm.resolution", "128"}};
-    for (const Variant& variant : {taken, brought, taken, Variant{}, brought, Variant{}})
+    Variant triangles, cones;
+    triangles.sets = {{"gather.hit", "triangle"}, {"gather.map_voxels", "64"}};
+    cones.sets = {{"gather.exact_hits", "true"}, {"gather.hit", "voxel"}, {"rsm.resolution", "128"}};
+    EXPECT_FALSE(model.find_parameter("gather.map_voxels"));
+    for (const Variant& variant : {triangles, cones, triangles, Variant{}, cones, Variant{}}) {
         EXPECT_NO_THROW(measurer.use(variant)) << variant.text();
+        for (const auto& [name, text] : variant.sets)
+            EXPECT_EQ(model.parameter(name).text(), text);
+    }
     EXPECT_EQ(model.parameter_names(), own);
     EXPECT_EQ(model.parameter("rsm.resolution").origin, origin);
+    EXPECT_EQ(model.parameter("gather.exact_hits").text(), "false");
+    EXPECT_THROW(measurer.use({{{"gather.map_voxels", "64"}}, {}}), Error);
+}
+
+TEST_F(Ablate, WhatTheGraphDerivesFollowsAVariant) {
+    const AblationSettings s = settings("lpv");
+    VariantMeasurer measurer(s.session, s.samples, 1);
+    const GraphModel& model = measurer.session().graph().model();
+    EXPECT_EQ(model.number("lights.directions"), 0);
+    measurer.use({{{"graph.angular", "ordinates"}}, {}});
+    EXPECT_EQ(model.number("lights.directions"), 48);
+    measurer.use({});
+    EXPECT_EQ(model.number("lights.directions"), 0);
 }
 
 TEST_F(Ablate, WithoutItsGatherThereIsNoLight) {
