@@ -24,6 +24,7 @@ class LayeredDepthMapsPass : public Pass {
             description.constant(name);
         ParameterSet& p = description.parameters;
         p.add("maps", maps_, {1, 4096}, "", "N: axes, and so maps; each serves both of its directions");
+        p.follow_need("maps", "axes");
         p.add("resolution", resolution_, {4, 1024}, "texels", "width and height of each map");
         p.add_choice("route", route_, {"raster", "compute"},
                      "raster: all maps of a batch in one draw, as published; compute: no rasterizer");

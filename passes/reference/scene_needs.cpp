@@ -24,6 +24,8 @@ constexpr double k_cells_across = 1.5, k_least_cells = 6, k_most_cells = 32;
 // Light that is swept through cells bleeds through what is thinner than one. With 96 directions, 50³ cells are the most
 // that a storage block of 128 MiB holds, the least that OpenGL promises.
 constexpr double k_light_cells_across = 5.5, k_least_light_cells = 24, k_most_light_cells = 48;
+// Where a map's texels are coarse beside the gaps, they make the error, and more axes take little of it away.
+constexpr double k_axes_by_gap = 2000, k_least_axes = 256, k_most_axes = 512;
 
 std::string limited(double wanted, double least, double most) {
     if (wanted < least) return fmt::format(", but no fewer than {:g}", least);
@@ -60,6 +62,8 @@ SceneNeeds needs_of(const FeatureSizes& f, float extent) {
                           fmt::format("{}: {:g} cells across", around, k_cells_across));
     needs["light_cells"] = need(std::ceil(k_light_cells_across * gaps), k_least_light_cells, k_most_light_cells,
                                 fmt::format("{}: {:g} cells across", around, k_light_cells_across));
+    needs["axes"] = need(std::round(k_axes_by_gap / gaps), k_least_axes, k_most_axes,
+                         fmt::format("{}: {:g} axes over the scene's length in such gaps", around, k_axes_by_gap));
     needs["cones"] = need(std::round(k_cones_by_variance * f.ray_variance), k_least_cones, k_most_cones,
                           fmt::format("what one ray brings varies by {:.2g} times its mean, {:.2g} % of the directions "
                                       "meet lit surfaces",

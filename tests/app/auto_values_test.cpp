@@ -31,7 +31,7 @@ TEST(AutoValues, EveryNeedThatIsFollowedIsKnown) {
 TEST(AutoValues, PublishedGraphsHaveFixedOnes) {
     for (const char* graph : {"lrsm", "dvs", "vct", "vf", "ism", "rsm", "ldm_ao", "ldm_indirect", "lpv"})
         EXPECT_FALSE(GraphModel(read_graph_file(find_graph(graph))).has_auto()) << graph;
-    for (const char* graph : {"lrsm_tuned", "dvs_tuned", "vct_tuned", "vf_tuned"})
+    for (const char* graph : {"lrsm_tuned", "dvs_tuned", "vct_tuned", "vf_tuned", "lpv_tuned", "ldm_indirect_tuned"})
         EXPECT_TRUE(GraphModel(read_graph_file(find_graph(graph))).has_auto()) << graph;
 }
 
@@ -42,7 +42,10 @@ TEST(AutoValues, FinerScenesNeedMore) {
     coarse.ray_variance = 3, fine.ray_variance = 6;
     const SceneNeeds few = needs_of(coarse, 20), many = needs_of(fine, 20);
     for (const auto& [name, need] : few) {
-        EXPECT_LT(need.value, many.at(name).value) << name;
+        if (name == "axes")
+            EXPECT_GT(need.value, many.at(name).value) << "the maps' texels are what is too coarse then";
+        else
+            EXPECT_LT(need.value, many.at(name).value) << name;
         EXPECT_THAT(need.reason, testing::HasSubstr(name == "cones" ? "one ray" : "within 4 m")) << name;
     }
     EXPECT_EQ(few.at("voxels").value, 128)

@@ -106,7 +106,8 @@ TEST_F(Leaks, SteadyFramesOfLayeredMaps) {
     for (const char* graph_name : {"lrsm", "lrsm_tuned"}) {
         SessionOptions options = session->options();
         options.graph = graph_name;
-        options.sets = {{"rsm.resolution", "64"}, {"occlusion_voxels.resolution", "16"}};
+        options.sets = {
+            {"rsm.resolution", "64"}, {"occlusion_voxels.resolution", "16"}, {"gather.hit_lookup", "layers"}};
         Session steady(options);
         auto render = [&](int count) {
             for (int i = 0; i < count; ++i, steady.advance())
