@@ -18,10 +18,6 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 # Of each chart its runs, which are merged: a sweep is one of parameters that each graph of its run has.
 CHARTS = {
-    # The indirect light of every method at its defaults, held to a reference of as many bounces.
-    "methods": [["cornell", "sibenik", "sponza_sun", "--graphs", "rsm,rsm_tuned,ism_tuned,vf_tuned,lrsm,lrsm_tuned,dvs,"
-                 "dvs_tuned,vct,vct_tuned,traced,lrsm_traced,dvs_traced", "--resource", "out.indirect_diffuse", "--size",
-                 "160x90", "--noise", "0.05"]],
     "lrsm": [["cornell", "sponza_sun", *graphs, "--resource", "out.indirect_diffuse", "--size", "160x90",
               "--noise", "0.05"]
              for graphs in (["--graphs", "lrsm,lrsm_tuned", "--sweep", "lrsm"], ["--graphs", "traced", "--sweep", "traced"])],
