@@ -75,6 +75,14 @@ class Search {
         return gain;
     }
 
+    /// Whether the variant becomes the best. A gain that may be noise is none: a search that went on for it would not
+    /// end.
+    bool is_taken(const Variant& variant) {
+        const double before = best_value_;
+        try_variant(variant);
+        return best_value_ < before;
+    }
+
     /// How much of a gain may be that of a second measurement of the same.
     double noise(const TuneFigures& figures) const {
         const bool is_late = above(std::max(figures.ms, result_.best.figures.ms), goal_.ms) > 0;
@@ -217,7 +225,7 @@ class Search {
         std::stable_sort(pairs.begin(), pairs.end(),
                          [](const Pair& a, const Pair& b) { return a.expected < b.expected; });
         for (size_t i = 0; i < std::min(pairs.size(), k_max_pairs) && !spent(); ++i)
-            if (try_variant(pairs[i].variant) > k_gain) return true;
+            if (is_taken(pairs[i].variant)) return true;
         return false;
     }
 
@@ -240,7 +248,7 @@ class Search {
                     for (const std::string& text : neighbours_of(parameter(move.name), move.text))
                         if (text != before) variant = with(variant, {move.name, text});
             }
-            if (!known_.contains(variant) && try_variant(variant) > k_gain) return true;
+            if (!known_.contains(variant) && is_taken(variant)) return true;
         }
         return false;
     }
