@@ -1,7 +1,8 @@
 #ifndef DVS_BOUNCE_VOXELS_GLSL
 #define DVS_BOUNCE_VOXELS_GLSL
 // One bounce of diffuse light between voxels (DVS, section IX): cones about each voxel's averaged normal, times its albedo,
-// added to its direct light: L = L_direct + ρ·(E/π). With sky_light, what no cone's voxels block brings the environment's.
+// added to its direct light: L = L_direct + ρ·(E/π). With sky_light, what no cone's voxels block brings the environment's;
+// environment_alone: that and nothing else.
 #include "lib/environment.glsl"
 #include "lib/material_model.glsl"
 #include "dvs/cone.glsl"
@@ -15,6 +16,7 @@ layout(FORMAT_dvs_bounced) writeonly uniform image3D dvs_bounced;
 
 uniform bool occupied_only;
 uniform bool two_sided;
+uniform bool environment_alone;
 uniform int cone_set = 3;        //! {six, six_tilted, spiral, four} four, as published
 uniform int spiral_cones = 4;    //! [1, 64] cones of the set spiral
 uniform bool interleave = false; //! neighbouring voxels take different cones: eight sets in turn
@@ -32,7 +34,7 @@ vec3 gathered(VoxelGrid grid, ivec3 voxel, vec3 n) {
         vec4 cone = cone_of(cone_set, spiral_cones, i, part);
         vec3 direction = frame * cone.xyz;
         Traced traced = trace_cone(grid, apex, direction, diameter, 0.0);
-        sum += cone.w * traced.colour;
+        if (!environment_alone) sum += cone.w * traced.colour;
 #if sky_light
         sum += cone.w * (1.0 - traced.occlusion) * environment(direction);
 #endif

@@ -4,8 +4,13 @@
 uniform int hit = 1; //! static {voxel, plane, triangle, near_triangle} exact hits: the voxel, its plane, triangles, these near by
 uniform float near_share = 0.05; //! [0.001, 1] (scene diagonals) hit near_triangle: how far triangles count, and voxels beyond
 #define CHOOSES_HITS
+uniform int hit_lookup = 0;     //! static {voxels, map} light at the hit: the voxel's or the triangle's own; or from the reflective shadow maps
 #if hit >= hit_triangle
+#if hit_lookup == hit_lookup_map
+#include "dvs/walked_cone.glsl"
+#else
 #include "dvs/triangle_cone.glsl"
+#endif
 #else
 #include "dvs/walked_cone.glsl"
 #endif
@@ -26,7 +31,6 @@ layout(FORMAT_dvs_sky) writeonly uniform image2D dvs_sky; // the environment's E
 uniform int cone_set = 0;       //! {six, six_tilted, spiral} six as published
 uniform int spiral_cones = 32;  //! [4, 128] auto(cones) cones of the set spiral
 uniform bool dithered_start = false; //! shifts the first step differently in blocks of 4 × 4: noise instead of bands
-uniform int hit_lookup = 0;     //! static {voxels, map} light at the hit: from the voxel, or from a walk over the reflective shadow maps
 uniform float aperture = 60.0;  //! [1, 90] (degrees) of each cone, from side to side
 
 void main() {
@@ -60,7 +64,11 @@ void main() {
         vec3 direction = frame * cone.xyz;
 #if hit >= hit_triangle
         uint seed = hash_combine(hash_combine(uint(texel.x) | (uint(texel.y) << 16), vary ? uint(frame_index) : 0u), uint(i)) | 1u;
+#if hit_lookup == hit_lookup_map
+        Traced traced = trace_cone_to_triangle(grid, start, exact, direction, diameter, seed);
+#else
         Traced traced = trace_triangle_cone(grid, start, exact, direction, diameter, seed);
+#endif
 #else
         Traced traced = hit_lookup == hit_lookup_map ? trace_walked_cone(grid, start, direction, diameter)
                                         : trace_cone(grid, start.apex, direction, diameter, start_share);

@@ -2,6 +2,13 @@
 #define DVS_WALKED_CONE_GLSL
 // A ray whose direct light comes from reflective shadow maps (voxel/walk_to_hit.glsl): what the voxels cannot resolve is
 // resolved where the lights see it. What light bounced between voxels before, and what they emit, is the voxel's at the hit.
+// With triangles the ray ends exactly, near by or everywhere, and the maps tell the light of what it meets there.
+#if hit >= hit_triangle
+#define DVS_HITS_TRIANGLES
+#include "surface/map_light.glsl"
+#include "surface/start.glsl"
+#include "traced/trace.glsl"
+#endif
 #include "dvs/cone.glsl"
 #include "voxel/walk_to_hit.glsl"
 
@@ -34,8 +41,8 @@ vec3 colour_without_lights(ivec3 voxel, bool front) {
     return colour;
 }
 
-Traced trace_walked_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diameter) {
-    WalkedHit hit = walk_to_hit(grid, start, direction);
+// What a ray brings that ends at `hit`.
+Traced cone_to_hit(VoxelGrid grid, ConeStart start, vec3 direction, float diameter, WalkedHit hit) {
     Traced cone = Traced(vec3(0.0), 0.0, 0.0, -1.0);
     if (hit.t < 0.0) return cone;
     ivec3 voxel = hit.voxel;
@@ -55,5 +62,27 @@ Traced trace_walked_cone(VoxelGrid grid, ConeStart start, vec3 direction, float 
     cone.ambient_occlusion = 1.0 / (1.0 + ambient_decay * 0.5 * diameter * hit.t / grid.voxel);
     return cone;
 }
+
+#if hit >= hit_triangle
+Traced trace_cone_to_triangle(VoxelGrid grid, ConeStart start, StartPoint exact, vec3 direction, float diameter, uint seed) {
+    if (dot(direction, exact.face) <= 0.0) return Traced(vec3(0.0), 1.0, 1.0, -1.0); // the surface itself is in the way
+#if hit == hit_near_triangle
+    float near = near_share * scene_diagonal;
+#else
+    float near = 3.0e38;
+#endif
+    TracedHit met = trace_nearest(exact.origin, direction, near, seed);
+    WalkedHit end = WalkedHit(-1.0, false, vec3(0.0), ivec3(0));
+    if (met.draw != k_nothing) end = WalkedHit(met.t, true, map_light(exact.origin + met.t * direction, direction), ivec3(0));
+#if hit == hit_near_triangle
+    else end = walk_on(grid, start, direction, near, near);
+#endif
+    return cone_to_hit(grid, start, direction, diameter, end);
+}
+#else
+Traced trace_walked_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diameter) {
+    return cone_to_hit(grid, start, direction, diameter, walk_to_hit(grid, start, direction));
+}
+#endif
 
 #endif

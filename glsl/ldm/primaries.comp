@@ -36,12 +36,9 @@ void main() {
     vec4 radiance = texelFetch(rsm_radiance, texel, 0);
     vec2 ndc = (vec2(texel.xy) + 0.5) / vec2(size.xy) * 2.0 - 1.0;
     if (depth > 0.0 && radiance.a > 1.0e-3 && !outside_window(view, ndc)) {
-        // The first two rows of the matrix are the view's right and up, divided by its half width (at one metre).
         bool parallel = view.range > 0.0;
-        vec3 right = vec3(view.view_projection[0].x, view.view_projection[1].x, view.view_projection[2].x);
-        vec3 up = vec3(view.view_projection[0].y, view.view_projection[1].y, view.view_projection[2].y);
-        right /= dot(right, right);
-        up /= dot(up, up);
+        vec3 right, up;
+        view_axes(view, right, up);
         vec3 aside = ndc.x * right + ndc.y * up, ray = view.direction + (parallel ? vec3(0.0) : aside);
         float distance_along = shadow_distance(view, depth), stretch = length(ray), t = distance_along * stretch;
         vec3 d = ray / stretch, n = normalize(texelFetch(rsm_normal, texel, 0).xyz);

@@ -21,6 +21,15 @@ float shadow_distance(ShadowView view, float depth) {
     return view.range > 0.0 ? (1.0 - depth) * view.range : view.near_plane / depth;
 }
 
+// The view's right and up, as long as half its width (at one metre).
+void view_axes(ShadowView view, out vec3 right, out vec3 up) {
+    // The first two rows of the matrix are these, divided by their squared length.
+    right = vec3(view.view_projection[0].x, view.view_projection[1].x, view.view_projection[2].x);
+    up = vec3(view.view_projection[0].y, view.view_projection[1].y, view.view_projection[2].y);
+    right /= dot(right, right);
+    up /= dot(up, up);
+}
+
 // Which of a point light's six faces looks at `direction` (from the light).
 int cube_face(vec3 direction) {
     vec3 a = abs(direction);
@@ -36,10 +45,9 @@ int shadow_layer(Light light, vec3 position) {
 // Distance along the view at which the ray through `ndc` meets the plane through `position`, kept within `max_offset` metres of
 // `along`, the position's own distance: an edge-on plane is met anywhere.
 float shadow_plane_distance(ShadowView view, vec2 ndc, vec3 position, vec3 normal, float along, float max_offset) {
-    // The first two rows of the matrix are the view's right and up, divided by its half width (at one metre).
-    vec3 right = vec3(view.view_projection[0].x, view.view_projection[1].x, view.view_projection[2].x);
-    vec3 up = vec3(view.view_projection[0].y, view.view_projection[1].y, view.view_projection[2].y);
-    vec3 across = right * (ndc.x / dot(right, right)) + up * (ndc.y / dot(up, up));
+    vec3 right, up;
+    view_axes(view, right, up);
+    vec3 across = ndc.x * right + ndc.y * up;
     vec3 from = position - view.origin;
     float met = view.range > 0.0 ? dot(normal, from - across) / dot(normal, view.direction)
                                  : dot(normal, from) / dot(normal, view.direction + across);

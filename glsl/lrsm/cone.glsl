@@ -15,14 +15,12 @@ uniform float hit_radius = 1.5;       //! [0.25, 16] (voxels) hit_then_sample: r
 uniform int near_spheres = 0;        //! [0, 8] hit_then_sample: spheres looked up between the surface and the cone's start
 uniform float near_diameter = 0.5;   //! [0.05, 2] (voxels) of these spheres
 
-uniform int hit_lookup = 0; //! static {layers, map} light at the hit: a sphere in the layers, or a walk over the shadow maps
+uniform int hit_lookup = 0; //! static {layers, map} light at the hit: a sphere in the layers, or from the shadow maps themselves
 
-// Where every cone walks over the maps, nothing reads the layers, and the graph does not make them.
-#ifndef SAMPLES_AT_TRIANGLES
+// Where every cone's light is the maps', nothing reads the layers, and the graph does not make them.
 #if hit_then_sample
 #if hit_lookup == hit_lookup_map
 #define WALKS_OVER_MAPS
-#endif
 #endif
 #endif
 #include "lrsm/sample.glsl"
@@ -41,15 +39,20 @@ Blocker find_blocker(VoxelGrid grid, vec3 apex, vec3 direction, float from) {
     return Blocker(hit.t < 0.0 ? -1.0 : hit.enters, hit.leaves, ivec3(0));
 }
 
+#ifdef WALKS_OVER_MAPS
+ConeLight light_of_walk(VoxelGrid grid, ConeStart start, vec3 direction, WalkedHit hit) {
+    if (hit.t < 0.0) return ConeLight(vec3(0.0), 0.0, -1.0);
+    if (hit.met) SEE_SPHERE(true, start.surface + hit.t * direction, hit.t, grid.voxel, 1.0, 0.0, 1.0, hit.light);
+    return ConeLight(hit.light, 1.0, hit.t);
+}
+#endif
+
 // near_spheres look the maps up between the surface and the apex: what is lit and faces the surface counts, and blocks, by the share of
 // the sphere that it covers.
 ConeLight light_along_cone(VoxelGrid grid, ConeStart start, vec3 direction, float diameter) {
     vec3 light = vec3(0.0), surface = start.surface, apex = start.apex;
 #ifdef WALKS_OVER_MAPS
-    WalkedHit hit = walk_to_hit(grid, start, direction);
-    if (hit.t < 0.0) return ConeLight(vec3(0.0), 0.0, -1.0);
-    if (hit.met) SEE_SPHERE(true, surface + hit.t * direction, hit.t, grid.voxel, 1.0, 0.0, 1.0, hit.light);
-    return ConeLight(hit.light, 1.0, hit.t);
+    return light_of_walk(grid, start, direction, walk_to_hit(grid, start, direction));
 #else
     if (hit_then_sample) {
         float open = 1.0;

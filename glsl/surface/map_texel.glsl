@@ -24,11 +24,10 @@ MapTexel map_texel(ivec3 at) {
     if (depth <= 0.0 || radiance.a <= 1.0e-3) return texel;
     ShadowView view = views[at.z];
     float along = shadow_distance(view, depth);
-    // The first two rows of the matrix are the view's right and up, divided by its half width (at one metre).
-    vec3 right = vec3(view.view_projection[0].x, view.view_projection[1].x, view.view_projection[2].x);
-    vec3 up = vec3(view.view_projection[0].y, view.view_projection[1].y, view.view_projection[2].y);
+    vec3 right, up;
+    view_axes(view, right, up);
     vec2 ndc = (vec2(at.xy) + 0.5) / vec2(textureSize(rsm_depth, 0).xy) * 2.0 - 1.0;
-    vec3 across = right * (ndc.x / dot(right, right)) + up * (ndc.y / dot(up, up));
+    vec3 across = ndc.x * right + ndc.y * up;
     // Where several views of one light overlap, each place counts in one of them.
     if (max(abs(ndc.x), abs(ndc.y)) > view.window) return texel;
     float side = view.texel_size;

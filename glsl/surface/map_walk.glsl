@@ -4,11 +4,7 @@
 // walks over the depth buffer. Each texel is a piece of plane: its centre's position and its normal. A ray that comes
 // through that plane from its lit side meets it and sees its light; one that comes through from behind is blocked by it.
 // So a thin sheet that is lit on its other side blocks. What no light reaches is in no map: voxels tell of it.
-#include "surface/rsm_views.glsl"
-
-uniform sampler2DArray rsm_radiance; //! optional
-uniform sampler2DArray rsm_normal;   //! optional
-uniform sampler2DArray rsm_depth;    //! optional
+#include "surface/rsm_maps.glsl"
 
 uniform float map_tolerance = 0.5; //! [0.05, 8] (texels) hit_lookup map: distance to a texel's plane that counts as a hit
 uniform int map_steps = 64;        //! [4, 512] hit_lookup map: texels that a walk visits, at most
@@ -29,11 +25,8 @@ bool walk_map(int view_index, vec3 surface, vec3 face, vec3 direction, float fro
     }
     vec2 across = abs(last.xy / last.w - first.xy / first.w) * 0.5 * size;
     int steps = clamp(int(ceil(1.25 * max(across.x, across.y))) + 1, 1, map_steps);
-    // The first two rows of the matrix are the view's right and up, divided by its half width (at one metre).
-    vec3 right = vec3(view.view_projection[0].x, view.view_projection[1].x, view.view_projection[2].x);
-    vec3 up = vec3(view.view_projection[0].y, view.view_projection[1].y, view.view_projection[2].y);
-    right /= dot(right, right);
-    up /= dot(up, up);
+    vec3 right, up;
+    view_axes(view, right, up);
     float stretch = (to - from) / float(steps);
     bool was_in_light = false, was_in_shadow = false; // of the texel before
     for (int i = 0; i < steps; ++i) {

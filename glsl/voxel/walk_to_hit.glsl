@@ -28,19 +28,14 @@ struct WalkedHit {
     ivec3 voxel; // of the last blocker
 };
 
-// The maps are walked from the surface on, the voxels from the apex.
-WalkedHit walk_to_hit(VoxelGrid grid, ConeStart start_point, vec3 direction) {
-    vec3 surface = start_point.surface, face = start_point.face;
-    float same_place = 0.5 * grid.voxel, met, walked = map_near * grid.voxel;
+// From `start` metres along the ray from the apex on; the maps from `walked` on: what lies before is known not to block.
+WalkedHit walk_on(VoxelGrid grid, ConeStart start_point, vec3 direction, float start, float walked) {
+    float same_place = 0.5 * grid.voxel, met;
     vec3 light;
     bool in_light;
-    if (map_near > 0.0 && walk_maps(surface, face, direction, 0.0, walked, same_place, met, light, in_light))
-        return WalkedHit(met, true, light, ivec3(0));
     // A ray from an apex off the surface reaches a plane that faces the surface so much earlier than the ray from the
     // surface itself.
-    float lag = normal_offset * grid.voxel / max(dot(face, direction), 0.25);
-    float start = max(start_offset, 1.0e-3) * grid.voxel;
-    if (map_near > 0.0 && in_light) start = max(start, walked);
+    float lag = normal_offset * grid.voxel / max(dot(start_point.face, direction), 0.25);
     Blocker blocker;
     for (int i = 0; i < map_tries; ++i) {
         blocker = find_blocker(grid, start_point.apex, direction, start);
@@ -48,12 +43,24 @@ WalkedHit walk_to_hit(VoxelGrid grid, ConeStart start_point, vec3 direction) {
         float from = max(blocker.enters - map_before * grid.voxel, walked);
         float to = max(blocker.leaves + map_after * grid.voxel + lag, walked);
         if (to <= walked) break;
-        if (walk_maps(surface, face, direction, from, to, same_place, met, light, in_light))
+        if (walk_maps(start_point.surface, start_point.face, direction, from, to, same_place, met, light, in_light))
             return WalkedHit(met, true, light, blocker.voxel);
         if (!in_light) break;
         start = walked = to;
     }
     return WalkedHit(blocker.enters, false, vec3(0.0), blocker.voxel);
+}
+
+// The maps are walked from the surface on, the voxels from the apex.
+WalkedHit walk_to_hit(VoxelGrid grid, ConeStart start_point, vec3 direction) {
+    float met, walked = map_near * grid.voxel;
+    vec3 light;
+    bool in_light = false;
+    if (map_near > 0.0 &&
+        walk_maps(start_point.surface, start_point.face, direction, 0.0, walked, 0.5 * grid.voxel, met, light, in_light))
+        return WalkedHit(met, true, light, ivec3(0));
+    float start = max(start_offset, 1.0e-3) * grid.voxel;
+    return walk_on(grid, start_point, direction, in_light ? max(start, walked) : start, walked);
 }
 
 #endif

@@ -2,6 +2,8 @@
 #include "core/error.h"
 #include "dvs/directional_filter.h"
 
+#include <algorithm>
+
 namespace bounce {
 
 /// A radiance volume; behind the front sides' the back sides' when there are two. Over the list, only occupied voxels
@@ -60,12 +62,10 @@ class VoxelBouncePass : public Pass {
         description.program("bounce_again", {"dvs/bounce_again.comp"});
         DirectionalFilter::describe(description);
         description.constant("two_sided");
+        description.constant("environment_alone");
         description.parameters.add("occupied_only", occupied_only_, k_occupied_only);
         description.parameters.add("bounces", bounces_, {1, 8}, "",
                                    "indirect bounces; 2, as published: one between voxels, one at the pixel");
-    }
-    std::string skip_reason(const SceneFacts&) const override {
-        return bounces_ > 1 ? "" : "one bounce, the one at the pixel, needs none between voxels";
     }
     std::vector<std::pair<std::string, std::string>> fallbacks() const override {
         return {{"dvs.bounced", "dvs.radiance"}};
@@ -84,8 +84,10 @@ class VoxelBouncePass : public Pass {
     void execute(PassContext& c) override {
         glm::ivec3 size = c.texture("dvs.bounced").desc().size;
         c.set("two_sided", size.z > size.x);
+        // With one bounce, the one at the pixel, voxels send on the environment's light beside the direct one.
+        c.set("environment_alone", bounces_ == 1);
         // The bounce after the next starts from what this one made.
-        for (int bounce = 1; bounce < bounces_; ++bounce) {
+        for (int bounce = 1; bounce < std::max(bounces_, 2); ++bounce) {
             if (bounce > 1) {
                 if (c.has("dvs.directional")) filter_.run(c);
                 c.barrier();
