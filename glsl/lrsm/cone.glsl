@@ -26,6 +26,9 @@ uniform int hit_lookup = 0; //! static {layers, map} light at the hit: a sphere 
 #include "lrsm/sample.glsl"
 #include "voxel/exact_hit.glsl"
 #include "voxel/walk_to_hit.glsl"
+#ifdef WALKS_OVER_MAPS
+#include "surface/sky_bounce.glsl"
+#endif
 
 // Where voxels block the cone, from `from` metres on.
 OccludedAt find_lit_hit(VoxelGrid grid, vec3 apex, vec3 direction, float from) {
@@ -42,8 +45,11 @@ Blocker find_blocker(VoxelGrid grid, vec3 apex, vec3 direction, float from) {
 #ifdef WALKS_OVER_MAPS
 ConeLight light_of_walk(VoxelGrid grid, ConeStart start, vec3 direction, WalkedHit hit) {
     if (hit.t < 0.0) return ConeLight(vec3(0.0), 0.0, -1.0);
-    if (hit.met) SEE_SPHERE(true, start.surface + hit.t * direction, hit.t, grid.voxel, 1.0, 0.0, 1.0, hit.light);
-    return ConeLight(hit.light, 1.0, hit.t);
+    vec3 at = start.surface + hit.t * direction;
+    if (hit.met) SEE_SPHERE(true, at, hit.t, grid.voxel, 1.0, 0.0, 1.0, hit.light);
+    // Where a voxel alone says that the ray is blocked, the surface lies somewhere in it.
+    vec3 by_sky = hit.met ? sky_bounce(at, direction, 0.0) : sky_bounce(at + 0.5 * grid.voxel * direction, direction, grid.voxel);
+    return ConeLight(hit.light + by_sky, 1.0, hit.t);
 }
 #endif
 

@@ -26,7 +26,7 @@ float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float leve
 }
 #endif
 #ifdef WALKS_OVER_MAPS
-#include "surface/map_light.glsl"
+#include "surface/sky_bounce.glsl"
 #endif
 #include "surface/start.glsl"
 #include "traced/trace.glsl"
@@ -57,7 +57,7 @@ vec4 trace_lit_triangles(VoxelGrid grid, ConeStart start, StartPoint exact, vec3
     if (met.draw == k_nothing) return vec4(0.0);
 #endif
 #ifdef WALKS_OVER_MAPS
-    vec3 light = map_light(at, direction);
+    vec3 light = map_light(at, direction) + sky_bounce(at, direction, 0.0);
     SEE_SPHERE(true, at, t, grid.voxel, 1.0, 0.0, 1.0, light);
 #else
     vec3 light = vec3(0.0);

@@ -7,38 +7,48 @@
 
 uniform float map_thickness = 0.5; //! [0.05, 8] (texels) hit_lookup map, triangles: distance to a texel's plane within which it tells the light
 
-// Of all views. `direction`: of the ray that meets the point; the lit side of what it meets must face it.
+// Of one view, layer `layer` of its maps. `direction`: of the ray that meets the point; the lit side of what it meets must
+// face it. The point may lie `off` metres off the surface.
+vec3 light_in_view(sampler2DArray radiance, sampler2DArray normal, sampler2DArray depths, ShadowView view, int layer, vec3 position, vec3 direction, float off) {
+    vec4 clip = view.view_projection * vec4(position, 1.0);
+    if (clip.w <= 0.0 || max(abs(clip.x), abs(clip.y)) > view.window * clip.w) return vec3(0.0);
+    ivec2 size = textureSize(depths, 0).xy;
+    float along = dot(position - view.origin, view.direction);
+    vec3 right, up;
+    view_axes(view, right, up);
+    vec2 at = (clip.xy / clip.w * 0.5 + 0.5) * vec2(size) - 0.5, corner = floor(at), share = at - corner;
+    const float k_steepest = 16.0; // texels of depth a texel
+    vec3 sum = vec3(0.0);
+    float known = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 step = ivec2(i & 1, i >> 1), texel = clamp(ivec2(corner) + step, ivec2(0), size - 1);
+        float depth = texelFetch(depths, ivec3(texel, layer), 0).r;
+        if (depth <= 0.0) continue;
+        float z = shadow_distance(view, depth), scale = view.range > 0.0 ? 1.0 : z, width = view.texel_size * scale;
+        float weight = (step.x == 1 ? share.x : 1.0 - share.x) * (step.y == 1 ? share.y : 1.0 - share.y);
+        // Without a look at planes that are too steep to tell anything.
+        if (abs(z - along) > k_steepest * width + off) {
+            if (z < along) known += weight;
+            continue;
+        }
+        vec2 ndc = (vec2(texel) + 0.5) / vec2(size) * 2.0 - 1.0;
+        vec3 there = view.origin + z * view.direction + scale * (ndc.x * right + ndc.y * up);
+        vec3 n = texelFetch(normal, ivec3(texel, layer), 0).xyz;
+        if (abs(dot(there - position, n)) <= max(map_thickness * width, off)) {
+            known += weight;
+            if (dot(n, direction) < 0.0) sum += weight * texelFetch(radiance, ivec3(texel, layer), 0).rgb;
+        } else if (z < along) {
+            known += weight;
+        }
+    }
+    return known > 0.0 ? sum / known : vec3(0.0);
+}
+
+// Of all lights.
 vec3 map_light(vec3 position, vec3 direction) {
     vec3 light = vec3(0.0);
-    ivec2 size = textureSize(rsm_depth, 0).xy;
-    for (int layer = 0; layer < views.length(); ++layer) {
-        ShadowView view = views[layer];
-        vec4 clip = view.view_projection * vec4(position, 1.0);
-        if (clip.w <= 0.0 || max(abs(clip.x), abs(clip.y)) > view.window * clip.w) continue;
-        float along = dot(position - view.origin, view.direction);
-        vec3 right, up;
-        view_axes(view, right, up);
-        vec2 at = (clip.xy / clip.w * 0.5 + 0.5) * vec2(size) - 0.5, corner = floor(at), share = at - corner;
-        vec3 sum = vec3(0.0);
-        float known = 0.0;
-        for (int i = 0; i < 4; ++i) {
-            ivec2 step = ivec2(i & 1, i >> 1), texel = clamp(ivec2(corner) + step, ivec2(0), size - 1);
-            float depth = texelFetch(rsm_depth, ivec3(texel, layer), 0).r;
-            if (depth <= 0.0) continue;
-            float z = shadow_distance(view, depth), scale = view.range > 0.0 ? 1.0 : z;
-            vec2 ndc = (vec2(texel) + 0.5) / vec2(size) * 2.0 - 1.0;
-            vec3 there = view.origin + z * view.direction + scale * (ndc.x * right + ndc.y * up);
-            vec3 n = texelFetch(rsm_normal, ivec3(texel, layer), 0).xyz;
-            float weight = (step.x == 1 ? share.x : 1.0 - share.x) * (step.y == 1 ? share.y : 1.0 - share.y);
-            if (abs(dot(there - position, n)) <= map_thickness * view.texel_size * scale) {
-                known += weight;
-                if (dot(n, direction) < 0.0) sum += weight * texelFetch(rsm_radiance, ivec3(texel, layer), 0).rgb;
-            } else if (z < along) {
-                known += weight;
-            }
-        }
-        if (known > 0.0) light += sum / known;
-    }
+    for (int i = 0; i < views.length(); ++i)
+        light += light_in_view(rsm_radiance, rsm_normal, rsm_depth, views[i], i, position, direction, 0.0);
     return light;
 }
 

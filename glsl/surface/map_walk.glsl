@@ -6,7 +6,7 @@
 // So a thin sheet that is lit on its other side blocks. What no light reaches is in no map: voxels tell of it.
 #include "surface/rsm_maps.glsl"
 
-uniform float map_tolerance = 0.5; //! [0.05, 8] (texels) hit_lookup map: distance to a texel's plane that counts as a hit
+uniform float map_tolerance = 0.25; //! [0.05, 8] (texels) hit_lookup map: distance to a texel's plane that counts as a hit
 uniform int map_steps = 64;        //! [4, 512] hit_lookup map: texels that a walk visits, at most
 
 // The ray's texels between two distances. True where it meets something: `met` is its distance, `light` what it sends

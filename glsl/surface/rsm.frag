@@ -1,14 +1,18 @@
 // Reflective shadow map (Dachsbacher & Stamminger 2005; LRSM, Table 1): for each texel the light that a diffuse surface
 // sends on, ρ·L_d·⟨n·l⟩/π with L_d the irradiance at normal incidence, its normal, and ⟨n·l⟩. Depth is the depth buffer. ρ is
-// the diffuse lobe's albedo for light from l: the lobe's reciprocity makes it what all viewers together see.
+// the diffuse lobe's albedo for light from l: the lobe's reciprocity makes it what all viewers together see. Light comes from
+// a punctual light, or as parallel light from the environment.
 #define SCENE_MATERIALS
 #define SCENE_LIGHTS
 #include "lib/frame.glsl"
 #include "lib/material_raster.glsl"
 #include "lib/normal_map.glsl"
 #include "lib/material_model.glsl"
+#include "surface/rsm_views.glsl"
 
-uniform int light_index;
+layout(std430) readonly buffer rsm_irradiance { vec4 parallel_irradiance[]; }; //! optional
+
+uniform int light_index; // below 0: the environment
 uniform int view_index; // which of rsm_views
 
 in Surface {
@@ -33,8 +37,9 @@ void main() {
     vec3 face = cross(dFdx(surface.position), dFdy(surface.position));
     if (!surface_is_there(material, base.a, texel_place(ivec2(gl_FragCoord.xy), uint(view_index), surface_draw, uint(gl_PrimitiveID)))) discard;
 
-    vec3 l;
-    vec3 irradiance = light_irradiance(lights[light_index], surface.position, l);
+    vec3 l = -views[view_index].direction, irradiance;
+    if (light_index < 0) irradiance = parallel_irradiance[view_index].rgb;
+    else irradiance = light_irradiance(lights[light_index], surface.position, l);
     face = unit_or(face, unit_or(surface.normal, l));
     vec3 authored = unit_or(surface.normal, face);
     vec3 n = turn_toward_viewer(shading_normal(material, authored, surface.tangent, mapped), face, l);
