@@ -5,7 +5,7 @@
 
 layout(local_size_x = 32) in;
 
-layout(std430) writeonly buffer rsm_irradiance { vec4 irradiance[]; };
+layout(std430) writeonly buffer rsm_parallel { vec4 irradiance[]; };
 
 void main() {
     int own = int(gl_GlobalInvocationID.x);

@@ -10,7 +10,7 @@
 #include "lib/material_model.glsl"
 #include "surface/rsm_views.glsl"
 
-layout(std430) readonly buffer rsm_irradiance { vec4 parallel_irradiance[]; }; //! optional
+layout(std430) readonly buffer rsm_parallel { vec4 parallel_irradiance[]; }; //! optional
 
 uniform int light_index; // below 0: the environment
 uniform int view_index; // which of rsm_views

@@ -18,7 +18,8 @@ class RsmPass : public Pass {
         description.parameters.add("resolution", resolution_, {16, 8192}, "texels", "width and height of each map");
         description.parameters.follow_need("resolution", "map_texels");
         description.parameters.add_choice("of", of_, {"lights", "environment"}, "whose light the maps show");
-        description.parameters.add("directions", directions_, {1, 32}, "", "of environment: maps, over the whole sphere");
+        description.parameters.add("directions", directions_, {1, 32}, "",
+                                   "of environment: maps, over the whole sphere");
     }
 
     std::string skip_reason(const SceneFacts& facts) const override {
@@ -41,8 +42,8 @@ class RsmPass : public Pass {
         d.writes("rsm.views", Usage::storage);
         if (of_ == Of::environment) {
             d.uses("directions");
-            d.creates_buffer("rsm.irradiance", std::to_string(views), sizeof(glm::vec4)).overwritten = true;
-            d.writes("rsm.irradiance", Usage::storage);
+            d.creates_buffer("rsm.parallel", std::to_string(views), sizeof(glm::vec4)).overwritten = true;
+            d.writes("rsm.parallel", Usage::storage);
         }
         d.repeat(0, views);
     }
@@ -57,8 +58,9 @@ class RsmPass : public Pass {
         }
         if (c.iteration == 0) {
             std::vector<ShadowView> views =
-                of_ == Of::lights ? shadow_views(c, resolution_)
-                                  : shadow_views(parallel_lights(), c.fact(&SceneFacts::bounds_over_animation), resolution_);
+                of_ == Of::lights
+                    ? shadow_views(c, resolution_)
+                    : shadow_views(parallel_lights(), c.fact(&SceneFacts::bounds_over_animation), resolution_);
             c.buffer("rsm.views").update(0, views.size() * sizeof(ShadowView), views.data());
             if (of_ == Of::environment) {
                 c.dispatch("directions", {directions_, 1, 1});

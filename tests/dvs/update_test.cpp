@@ -146,7 +146,8 @@ TEST_F(VoxelUpdate, OneBounceNeedsNoneBetweenVoxels) {
         EXPECT_EQ(plan.find_resource("dvs.bounced"), nullptr);
         EXPECT_THAT(programs_of(plan, "voxel_bounce"), testing::IsEmpty());
         EXPECT_THAT(programs_of(plan, "filter_bounced"), testing::IsEmpty());
-        EXPECT_THAT(plan_text(run.graph.model(), plan), testing::HasSubstr("voxel_bounce: one bounce"));
+        EXPECT_THAT(plan_text(run.graph.model(), plan),
+                    testing::HasSubstr("voxel_bounce: requires voxel_bounce.bounces > 1"));
     }
     EXPECT_EQ(pictures[0], pictures[1]);
     EXPECT_GT(*std::max_element(pictures[0].begin(), pictures[0].end()), 0.001f);
