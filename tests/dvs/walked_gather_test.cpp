@@ -15,7 +15,8 @@ class WalkedGather : public SceneGraphTest {
   protected:
     /// Mean of red over the picture of what is gathered in a room of 2 m; the maps show `in_maps` everywhere, the
     /// voxels `direct` of the lights and `base` in all.
-    double gathered(double in_maps, double direct, double base, const char* hit_lookup, double* darkest = nullptr) {
+    double gathered(double in_maps, double direct, double base, const char* hit_lookup, double* darkest = nullptr,
+                    const char* hit = "plane") {
         shader("test/uniform_radiance.comp", fmt::format(R"(layout(local_size_x = 8, local_size_y = 8) in;
 layout(FORMAT_rsm_radiance) uniform image2DArray rsm_radiance;
 void main() {{
@@ -47,9 +48,10 @@ void main() {{
                  {{"id":"fill","type":"compute","shader":"test/fill.comp","dispatch":"dvs.base"}},
                  {{"type":"rsm","params":{{"resolution":128}}}},
                  {{"id":"uniform","type":"compute","shader":"test/uniform_radiance.comp","dispatch":"rsm.radiance"}},
+                 {{"type":"bvh"}},
                  {{"id":"gather","type":"compute","shader":"dvs/gather.comp","params":{{"cone_set":"spiral","spiral_cones":16,
-                   "start_offset":0,"normal_offset":0.5,"hit_then_sample":true,"exact_hits":true,"hit_lookup":"{}"}}}}])",
-            hit_lookup);
+                   "start_offset":0,"normal_offset":0.5,"hit_then_sample":true,"exact_hits":true,"hit_lookup":"{}","hit":"{}"}}}}])",
+            hit_lookup, hit);
         // Lit from its middle, so that the six maps see every wall.
         SceneRunner run(MadeScene().box({-1, -1, -1}, {1, 1, 1}, glm::vec3(0.5f), true).scene,
                         {point_light({0, 0, 0}, {1, 1, 1})}, graph_file(file), {}, {k_pixels, k_pixels});
@@ -85,4 +87,15 @@ TEST_F(WalkedGather, AddsWhatVoxelsKnowBesideTheLights) {
     fmt::print("    {:.4f} in the dark, {:.4f} with light\n", bounced, both);
     EXPECT_NEAR(bounced, 0.5, 0.01);
     EXPECT_NEAR(both, 0.75, 0.015);
+}
+
+/// Triangles end rays exactly, near by or everywhere.
+TEST_F(WalkedGather, WithTrianglesItIsTheSame) {
+    for (const char* hit : {"near_triangle", "triangle"}) {
+        double light = gathered(0.75, 0.25, 0.25, "map", nullptr, hit),
+               both = gathered(0.25, 0.25, 0.75, "map", nullptr, hit);
+        fmt::print("    {}: {:.4f} in light, {:.4f} with what voxels know\n", hit, light, both);
+        EXPECT_NEAR(light, 0.75, 0.01) << hit;
+        EXPECT_NEAR(both, 0.75, 0.015) << hit;
+    }
 }

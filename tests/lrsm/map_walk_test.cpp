@@ -1,8 +1,8 @@
 // A ray's walk over a reflective shadow map against exact rays: where it first meets something lit, from which side,
 // and the light that it sees there. What is in shadow does not count: no map shows it.
+#include "lrsm/crossings.h"
 #include "lrsm/rsm_fixture.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 using namespace bounce;
@@ -25,33 +25,6 @@ const char* const k_ray = R"(#define SHARE(step, prime) (float(i * step % prime)
     vec3 origin = vec3(-1.5 + 3.0 * SHARE(37, 101), 0.05 + 1.2 * SHARE(53, 97), -1.5 + 3.0 * SHARE(29, 89));
     float y = 1.0 - 2.0 * SHARE(17, 79), around = 6.2831853 * SHARE(41, 83), r = sqrt(1.0 - y * y);
     vec3 direction = vec3(r * cos(around), y, r * sin(around));)";
-
-struct Crossing {
-    double t;
-    glm::dvec3 normal, colour;
-};
-
-std::vector<Crossing> crossings(const Scene& scene, glm::dvec3 origin, glm::dvec3 direction, double length) {
-    std::vector<Crossing> found;
-    for (const Primitive& primitive : scene.meshes[0].primitives)
-        for (uint32_t k = 0; k < primitive.index_count; k += 3) {
-            glm::dvec3 corner[3];
-            for (uint32_t i = 0; i < 3; ++i)
-                corner[i] = scene.vertices[scene.indices[primitive.first_index + k + i]].position;
-            glm::dvec3 u = corner[1] - corner[0], v = corner[2] - corner[0], normal = glm::cross(u, v);
-            double along = glm::dot(normal, direction);
-            if (along == 0) continue;
-            double t = glm::dot(normal, corner[0] - origin) / along;
-            if (t <= 0 || t >= length) continue;
-            glm::dvec3 p = origin + t * direction - corner[0];
-            double a = glm::dot(glm::cross(p, v), normal), b = glm::dot(glm::cross(u, p), normal);
-            if (a < 0 || b < 0 || a + b > glm::dot(normal, normal)) continue;
-            found.push_back(
-                {t, glm::normalize(normal), glm::dvec3(scene.materials[size_t(primitive.material)].base_colour)});
-        }
-    std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
-    return found;
-}
 
 class MapWalk : public SceneGraphTest {
   protected:
