@@ -190,7 +190,7 @@ TEST_F(VoxelLight, BouncesOnceBetweenTwoPlates) {
     double ratio = 16 / (22.5 - 9), across = ratio / std::sqrt(1 + ratio * ratio);
     double form = 4 / double(k_pi) * across * std::atan(across);
     double lower = 0.8 / k_pi * 10, wanted = 0.5 * lower * form;
-    auto bounced = [&](const std::string& params, const std::string& planes = "false") {
+    auto bounced = [&](const std::string& params, const std::string& planes = "false", glm::vec3 sky = glm::vec3(0)) {
         SceneRunner run(
             scene, {directional_light({0, -1, 0}, {10, 10, 10})},
             graph_file(
@@ -202,6 +202,7 @@ TEST_F(VoxelLight, BouncesOnceBetweenTwoPlates) {
                 {"type":"voxel_bounce","params":{)" +
                 params +
                 R"(},"bind":{"dvs.base":"dvs.radiance","dvs.filtered":"dvs.bounced","dvs.finer":"dvs.directional"}}])"));
+        if (sky != glm::vec3(0)) run.set_environment(sky);
         run.frame();
         Volume all = volume(run, "dvs.bounced"), albedo = volume(run, "voxels.albedo");
         double sum = 0, count = 0;
@@ -212,6 +213,10 @@ TEST_F(VoxelLight, BouncesOnceBetweenTwoPlates) {
         EXPECT_GT(count, 0);
         return sum / count;
     };
+    double from_sky = bounced(
+        R"("bounces":1,"sky_light":true,"hit_then_sample":true,"exact_hits":true,"cone_set":"spiral","spiral_cones":64)",
+        "false", {2, 2, 2});
+    EXPECT_NEAR(from_sky, 0.5 * 2 * (1 - form), 0.05) << "what the lower plate leaves open, and nothing of its light";
     double exact = bounced(R"("hit_then_sample":true,"exact_hits":true,"cone_set":"spiral","spiral_cones":64)");
     double wide = bounced(R"("cone_set":"spiral","spiral_cones":64,"aperture":15,"direction_weights":"absolute")");
     fmt::print("    bounced {:.4f} by exact hits, {:.4f} by cones, {:.4f} in closed form\n", exact, wide, wanted);
