@@ -74,7 +74,7 @@ void Invalidation::find_reach(const Plan& plan) {
 uint64_t Invalidation::reaching(const Plan& plan, size_t pass, Cause cause) const {
     Digest digest;
     for (size_t j = 0; j < plan.passes.size(); ++j)
-        if (reach_[pass][j]) digest.add(j).add(passes_.at(plan.passes[j].id).own[cause]);
+        if (reach_[pass][j]) digest.add(plan.passes[j].id).add(passes_.at(plan.passes[j].id).own[cause]);
     return digest.value();
 }
 
@@ -164,6 +164,11 @@ void Invalidation::find_runs(const Plan& plan, bool every_frame) {
     runs_.assign(count, every_frame);
     for (size_t i = 0; i < count; ++i)
         runs_[i] = every_frame || passes_[plan.passes[i].id].ran != revisions_[i];
+    // What is cleared is made again, even if all that it is made from is as it was.
+    for (int r : voids_) {
+        for (size_t i = 0; i < count; ++i)
+            if (writes(plan.passes[i], r)) runs_[i] = true;
+    }
     // A pass that is gone from the plan may have written on top of what those that are left made.
     for (size_t r = 0; r < plan.resources.size(); ++r) {
         const auto lies = lies_.find(plan.resources[r].name());

@@ -138,8 +138,17 @@ void GraphModel::scan(PassNode& node, const Defines& formats) {
         program->scan(defines, static_values(node));
         for (const ParameterInfo& info : program->parameters()) {
             if (shared && shared->parameters.find(info.name)) continue;
+            const bool comes_back = !node.parameters.find(info.name);
             node.parameters.declare_shader_parameter(info);
             names.push_back(info.name);
+            // What is compiled in may take a parameter away and bring it back: then with the file's value. What is
+            // wrong with that was told when the file was read.
+            const auto given = node.entry.params_json.find(info.name);
+            try {
+                if (comes_back && given != node.entry.params_json.end())
+                    apply_file_value(node, info.name, given->second);
+            } catch (const Error&) {
+            }
         }
     }
     // A file that cannot be read for the moment must not cost the values of its parameters.
@@ -227,14 +236,18 @@ static std::string derived_text(const std::string& expression, const ParameterSe
     return fmt::format("{}", evaluate(expression, graph_names(graph)));
 }
 
+void GraphModel::apply_file_value(PassNode& node, const std::string& name, const std::string& text) {
+    if (auto expression = as_expression(text)) {
+        node.parameters.set_text(name, derived_text(*expression, graph_parameters_), ParameterOrigin::graph);
+    } else {
+        node.parameters.set_json(name, nlohmann::json::parse(text), ParameterOrigin::graph);
+    }
+}
+
 void GraphModel::apply_file_values(PassNode& node, ErrorList& errors) {
     for (const auto& [name, text] : node.entry.params_json) {
         try {
-            if (auto expression = as_expression(text)) {
-                node.parameters.set_text(name, derived_text(*expression, graph_parameters_), ParameterOrigin::graph);
-            } else {
-                node.parameters.set_json(name, nlohmann::json::parse(text), ParameterOrigin::graph);
-            }
+            apply_file_value(node, name, text);
         } catch (const Error& error) {
             // A parameter of a shader that does not scan for the moment is not unknown, only out of sight.
             bool broken =

@@ -117,6 +117,7 @@ class GraphModel {
     void adopt_programs(GraphModel& other);
 
   private:
+    void apply_file_value(PassNode& node, const std::string& name, const std::string& text);
     void apply_file_values(PassNode& node, ErrorList& errors);
     void follow_change(const std::string& name);
     void scan_by_values(PassNode& node);

@@ -229,7 +229,7 @@ TEST_F(DebugViews, RecordedConesAreThoseOfTheGather) {
                 }
                 std::vector<float> depths = texture("gbuffer.depth").read();
                 bool surface = depths[size_t(at.pixel.x + session->size().x * at.pixel.y)] > 0;
-                ASSERT_EQ(at.cones, !surface ? 0 : graph == std::string("lrsm") ? 6 : 16);
+                ASSERT_EQ(at.cones, !surface ? 0 : graph == std::string("lrsm") ? 6 : 24);
                 surfaces += surface;
                 lit += at.summed.x > 0;
 

@@ -109,7 +109,7 @@ TEST_F(TracedHits, AreNearerToTheTruthThanVoxelsAre) {
     }
 }
 
-TEST_F(TracedHits, LrsmFindsItsLightInTheLayers) {
+TEST_F(TracedHits, LrsmFindsItsLightInTheMaps) {
     const Picture truth = rendered("traced", "traced.irradiance", {{"gather.rays", "16"}});
     const Picture lrsm = rendered("lrsm_traced", "lrsm.irradiance", {{"gather.spiral_cones", "16"}});
     EXPECT_NEAR(mean_of(lrsm) / mean_of(truth), 1, 0.12);
@@ -126,7 +126,7 @@ TEST_F(TracedHits, TheSecondBounceComesFromVoxels) {
 
 /// Published graphs march cones: no tree is built for them.
 TEST_F(TracedHits, AreOffAsPublished) {
-    for (const char* graph : {"dvs", "vct", "lrsm", "dvs_tuned", "vct_tuned", "lrsm_tuned"}) {
+    for (const char* graph : {"dvs", "vct", "lrsm"}) {
         SessionOptions options;
         options.shot = shot;
         options.graph = graph;

@@ -14,7 +14,7 @@ class Walks : public GpuTest {
         options.shot = "strip_4";
         options.graph = graph;
         options.size = {48, 27};
-        options.sets = {{"voxelization.resolution", "32"}, {"gather.hit_lookup", hit_lookup}};
+        options.sets = {{"voxelization.resolution", "32"}, {"gather.hit", "plane"}, {"gather.hit_lookup", hit_lookup}};
         Session session(options);
         session.render();
         for (const GraphProblem& problem : session.graph().problems())
