@@ -17,9 +17,9 @@ constexpr double k_voxels_across = 5, k_least_voxels = 128, k_most_voxels = 256;
 constexpr double k_occluders_across = 5, k_least_occluders = 64, k_most_occluders = 128;
 constexpr double k_texels_across = 64, k_least_texels = 256, k_most_texels = 1024;
 constexpr double k_cones_by_variance = 6.5, k_least_cones = 16, k_most_cones = 48;
-constexpr double k_proxies_across = 475, k_least_proxies = 24000, k_most_proxies = 800000;
+constexpr double k_proxies_across = 95, k_least_proxies = 24000, k_most_proxies = 200000;
 // Of proxies that light reaches a texel's lists hold so many: in bright rooms more of them lose light again.
-constexpr double k_most_lit_proxies = 110000;
+constexpr double k_most_lit_proxies = 22000;
 constexpr double k_cells_across = 1.5, k_least_cells = 6, k_most_cells = 32;
 // Light that is swept through cells bleeds through what is thinner than one. With 96 directions, 50³ cells are the most
 // that a storage block of 128 MiB holds, the least that OpenGL promises.
