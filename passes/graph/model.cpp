@@ -134,19 +134,25 @@ void GraphModel::scan(PassNode& node, const Defines& formats) {
     const PassNode* shared = find_node(node.entry.params_of);
     Defines defines = choices_of(node);
     defines.insert(formats.begin(), formats.end());
+    // The first time what is there is declared, and the file's values follow.
+    const std::vector<Parameter>& before = node.parameters.all();
+    const bool again = std::any_of(before.begin(), before.end(), [](const Parameter& p) { return p.info.in_shader; });
+    bool compiled_in = false; // a value that came back
     for (const auto& program : node.programs) {
         program->scan(defines, static_values(node));
         for (const ParameterInfo& info : program->parameters()) {
             if (shared && shared->parameters.find(info.name)) continue;
-            const bool comes_back = !node.parameters.find(info.name);
+            const bool comes_back = again && !node.parameters.find(info.name);
             node.parameters.declare_shader_parameter(info);
             names.push_back(info.name);
             // What is compiled in may take a parameter away and bring it back: then with the file's value. What is
             // wrong with that was told when the file was read.
             const auto given = node.entry.params_json.find(info.name);
             try {
-                if (comes_back && given != node.entry.params_json.end())
+                if (comes_back && given != node.entry.params_json.end()) {
                     apply_file_value(node, info.name, given->second);
+                    compiled_in = compiled_in || info.is_static;
+                }
             } catch (const Error&) {
             }
         }
@@ -154,6 +160,7 @@ void GraphModel::scan(PassNode& node, const Defines& formats) {
     // A file that cannot be read for the moment must not cost the values of its parameters.
     bool broken = std::any_of(node.programs.begin(), node.programs.end(), [](auto& p) { return !p->errors().empty(); });
     if (!broken) node.parameters.keep_shader_parameters(names);
+    if (compiled_in) scan(node, formats);
 }
 
 /// What is compiled in tells which slots there are: after it changed, they are read again.
