@@ -10,6 +10,7 @@
 #include "traced/emitter_rays.glsl"
 #endif
 #include "surface/start.glsl"
+#include "voxel/triangle_reach.glsl"
 
 // As images: of samplers there are few.
 layout(FORMAT_dvs_radiance) readonly uniform image3D dvs_radiance;
@@ -36,11 +37,7 @@ Traced trace_triangle_cone(VoxelGrid grid, ConeStart start, StartPoint exact, ve
     Traced cone = Traced(vec3(0.0), 0.0, 0.0, -1.0);
     cone.occlusion = cone.ambient_occlusion = 1.0;
     if (dot(direction, exact.face) <= 0.0) return cone; // the surface itself is in the way
-#if hit == hit_near_triangle
-    float near = near_share * scene_diagonal;
-#else
-    float near = 3.0e38;
-#endif
+    float near = triangle_reach();
     TracedHit met = trace_nearest(exact.origin, direction, near, seed);
     float t = met.t;
     if (met.draw != k_nothing) {

@@ -8,6 +8,7 @@
 #include "surface/map_light.glsl"
 #include "surface/start.glsl"
 #include "traced/trace.glsl"
+#include "voxel/triangle_reach.glsl"
 #endif
 #include "dvs/cone.glsl"
 #include "voxel/walk_to_hit.glsl"
@@ -66,11 +67,7 @@ Traced cone_to_hit(VoxelGrid grid, ConeStart start, vec3 direction, float diamet
 #if hit >= hit_triangle
 Traced trace_cone_to_triangle(VoxelGrid grid, ConeStart start, StartPoint exact, vec3 direction, float diameter, uint seed) {
     if (dot(direction, exact.face) <= 0.0) return Traced(vec3(0.0), 1.0, 1.0, -1.0); // the surface itself is in the way
-#if hit == hit_near_triangle
-    float near = near_share * scene_diagonal;
-#else
-    float near = 3.0e38;
-#endif
+    float near = triangle_reach();
     TracedHit met = trace_nearest(exact.origin, direction, near, seed);
     WalkedHit end = WalkedHit(-1.0, false, vec3(0.0), ivec3(0));
     if (met.draw != k_nothing) end = WalkedHit(met.t, true, map_light(exact.origin + met.t * direction, direction), ivec3(0));

@@ -30,15 +30,12 @@ float sphere_occlusion(VoxelGrid grid, vec3 position, vec3 direction, float leve
 #endif
 #include "surface/start.glsl"
 #include "traced/trace.glsl"
+#include "voxel/triangle_reach.glsl"
 
 // Radiance along the ray, and in a whether it is blocked.
 vec4 trace_lit_triangles(VoxelGrid grid, ConeStart start, StartPoint exact, vec3 direction, float diameter, uint seed) {
     if (dot(direction, exact.face) <= 0.0) return vec4(0.0, 0.0, 0.0, 1.0); // the surface itself is in the way
-#if hit == hit_near_triangle
-    float near = near_share * scene_diagonal;
-#else
-    float near = 3.0e38;
-#endif
+    float near = triangle_reach();
     TracedHit met = trace_nearest(exact.origin, direction, near, seed);
     vec3 at = exact.origin + met.t * direction;
     float t = met.t;
